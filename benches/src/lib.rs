@@ -1,0 +1,1 @@
+//! What Hooke costs, measured.

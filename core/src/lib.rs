@@ -1,0 +1,3 @@
+//! Hooke core (being laid).
+#![no_std]
+#![forbid(unsafe_code)]

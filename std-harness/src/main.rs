@@ -1,0 +1,3 @@
+//! The `hooke` command.
+
+fn main() {}
