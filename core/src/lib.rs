@@ -1,3 +1,60 @@
-//! Hooke core (being laid).
+#![doc = include_str!("../README.md")]
 #![no_std]
 #![forbid(unsafe_code)]
+#![warn(clippy::indexing_slicing)]
+
+// From the ground up, one idea per file, named after the thing in the lecture.
+mod lanes;
+mod real;
+mod sym3;
+pub mod vec3;
+
+mod energy;
+mod hessian;
+mod law;
+mod momentum;
+mod network;
+mod pins;
+mod reaction;
+pub mod selection;
+mod spring;
+mod stiffness;
+
+mod assembly;
+mod bound;
+mod certificate;
+mod islands;
+mod jacobi;
+mod parts;
+mod pcg;
+mod system;
+
+mod edit;
+mod error;
+pub mod force;
+mod integrator;
+mod memory;
+mod report;
+mod scene;
+mod snapshot;
+
+pub use energy::Energies;
+pub use error::{EditError, StepError};
+pub use force::{Drag, Force, Gravity, PointForce, PointSpring, SpringDamping};
+pub use hessian::{Hessian, Scaling};
+pub use integrator::{Integrator, LinearlyImplicitEuler};
+pub use jacobi::{Jacobi, Preconditioner};
+pub use law::{Cables, Hookean, Law, Mixed};
+pub use memory::{Fixed, List, Memory, SliceList, Slices};
+pub use network::State;
+pub use parts::Parts;
+pub use pcg::Stop;
+pub use pins::Motion;
+pub use real::Real;
+pub use report::{Ending, IslandReport, Report, Solve};
+pub use scene::{Growable, MassSpring, Scene, SceneIn};
+pub use snapshot::Snapshot;
+pub use spring::{Spring, Stretched};
+pub use sym3::Sym3;
+pub use system::{Operator, System};
+pub use vec3::Vec3;

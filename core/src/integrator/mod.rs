@@ -1,0 +1,24 @@
+//! Time integration: one file per method, one trait.
+
+mod linearly_implicit_euler;
+
+pub use linearly_implicit_euler::LinearlyImplicitEuler;
+
+use crate::error::StepError;
+use crate::law::Law;
+use crate::parts::Parts;
+use crate::pins::Motion;
+use crate::real::Real;
+use crate::report::{IslandReport, Report};
+
+/// A method that advances a scene by one step.
+pub trait Integrator<T: Real> {
+    /// Advances all of a scene by one step, or fails and leaves it untouched. `watch` sees each island's report.
+    /// Called by [`crate::MassSpring::step`] and its relatives, which prepare the parts.
+    fn advance<L: Law>(
+        &mut self,
+        parts: Parts<'_, T, L>,
+        motion: &[Motion<T>],
+        watch: &mut impl FnMut(&IslandReport<T>),
+    ) -> Result<Report<T>, StepError>;
+}

@@ -1,0 +1,99 @@
+//! A scene as slices: what the algorithms work on, whoever owns the memory.
+
+use core::marker::PhantomData;
+
+use crate::force::Rows;
+use crate::islands::Island;
+use crate::memory::{part, part_mut};
+use crate::network::State;
+use crate::real::Real;
+use crate::vec3::Vec3;
+
+/// All of a scene for one step. Only this crate's integrators look inside.
+pub struct Parts<'a, T, L> {
+    pub(crate) position: &'a mut [Vec3<T>],
+    pub(crate) velocity: &'a mut [Vec3<T>],
+    pub(crate) mass: &'a [T],
+    pub(crate) slot: &'a [u32],
+    pub(crate) spring_ends: &'a [[u32; 2]],
+    pub(crate) stiffness: &'a [T],
+    pub(crate) rest_length: &'a [T],
+    /// Slot → particle
+    pub(crate) particle: &'a [u32],
+    pub(crate) islands: &'a [[u32; 5]],
+    /// Local ends of the islands' springs, and which springs these are
+    pub(crate) ends: &'a [[u32; 2]],
+    pub(crate) spring: &'a [u32],
+    /// How many slots are unknowns
+    pub(crate) free: usize,
+    pub(crate) edges: usize,
+    /// Change of velocity of the unknowns; behind them the velocities of the pins over this step
+    pub(crate) x: &'a mut [Vec3<T>],
+    pub(crate) work: Work<'a, T>,
+    pub(crate) law: PhantomData<L>,
+}
+
+/// The solver's own lists, one entry per slot (the Hessians: per island spring).
+pub(crate) struct Work<'a, T> {
+    pub(crate) r: &'a mut [Vec3<T>],
+    pub(crate) b: &'a mut [Vec3<T>],
+    pub(crate) p: &'a mut [Vec3<T>],
+    pub(crate) y: &'a mut [Vec3<T>],
+    pub(crate) inertia: &'a mut [T],
+    pub(crate) mu: &'a mut [T],
+    pub(crate) block: &'a mut [[T; 6]],
+    pub(crate) hessian: &'a mut [[T; 4]],
+}
+
+/// One island of a scene: its rows of every list.
+pub(crate) struct IslandParts<'a, T> {
+    pub(crate) rows: Rows<'a, T>,
+    /// Local ends: pairs first, then anchors
+    pub(crate) pairs: &'a [[u32; 2]],
+    pub(crate) anchors: &'a [[u32; 2]],
+    /// Which springs these are
+    pub(crate) spring: &'a [u32],
+    pub(crate) x: &'a mut [Vec3<T>],
+    /// Velocities of all pins over this step, by slot after the last unknown
+    pub(crate) pin_velocity: &'a [Vec3<T>],
+    pub(crate) free: usize,
+    pub(crate) work: Work<'a, T>,
+}
+
+impl<T: Real, L> Parts<'_, T, L> {
+    /// Island k, or `None` past the last.
+    pub(crate) fn island(&mut self, k: usize) -> Option<IslandParts<'_, T>> {
+        let island = Island::unpack(*self.islands.get(k)?);
+        let Island { first, particles: n, first_edge, pairs, anchors } = island;
+        let edges = pairs + anchors;
+        let state = State {
+            position: self.position,
+            velocity: self.velocity,
+            mass: self.mass,
+            slot: self.slot,
+            ends: self.spring_ends,
+            stiffness: self.stiffness,
+            rest_length: self.rest_length,
+        };
+        let (unknowns, pin_velocity) = self.x.split_at_mut_checked(self.free)?;
+        Some(IslandParts {
+            rows: Rows { first, particle: part(self.particle, first, n), state },
+            pairs: part(self.ends, first_edge, pairs),
+            anchors: part(self.ends, first_edge + pairs, anchors),
+            spring: part(self.spring, first_edge, edges),
+            x: part_mut(unknowns, first, n),
+            pin_velocity,
+            free: self.free,
+            work: Work {
+                r: part_mut(self.work.r, first, n),
+                b: part_mut(self.work.b, first, n),
+                p: part_mut(self.work.p, first, n),
+                y: part_mut(self.work.y, first, n),
+                inertia: part_mut(self.work.inertia, first, n),
+                mu: part_mut(self.work.mu, first, n),
+                block: part_mut(self.work.block, first, n),
+                hessian: part_mut(self.work.hessian, first_edge, edges),
+            },
+        })
+    }
+}

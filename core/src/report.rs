@@ -1,0 +1,108 @@
+//! What a step says of itself: how hard it worked, how exact it is, and what it did not have to do.
+
+/// How the solve of one island ended.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Ending {
+    /// The start already met the tolerance: 0 iterations.
+    Untouched,
+    /// The tolerance is met.
+    Converged,
+    /// The residual is as small as its own rounding: no better answer can be recognised. A success.
+    Floor,
+    /// The maximal number of iterations was used up; the bounds tell how far it got.
+    Capped,
+    /// No progress above the floor (a breakdown in rounded arithmetic); the bounds tell how far it got.
+    Stalled,
+}
+
+/// The solve of one island.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Solve<T> {
+    /// PCG iterations.
+    pub iterations: u32,
+    /// ½‖e‖²_A is at most this, J.
+    pub upper: T,
+    /// ½‖e‖²_A is at least this, J.
+    pub lower: T,
+    /// How it ended.
+    pub ending: Ending,
+}
+
+/// One island of a step.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct IslandReport<T> {
+    /// Its first particle.
+    pub first_particle: usize,
+    /// Its number of (free) particles.
+    pub particles: usize,
+    /// Springs whose Hessian was clamped or replaced.
+    pub clamped: u32,
+    /// Did every node hold its certificate without clamping?
+    pub certified: bool,
+    /// The solve.
+    pub solve: Solve<T>,
+}
+
+/// A whole step. Sums over islands, unless said otherwise.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Report<T> {
+    /// PCG iterations of all islands together.
+    pub iterations: u32,
+    /// The error's energy ½‖e‖²_A is at most this, J.
+    pub upper: T,
+    /// The error's energy is at least this, J.
+    pub lower: T,
+    /// Springs whose Hessian was clamped or replaced.
+    pub clamped: u32,
+    /// Number of islands.
+    pub islands: u32,
+    /// Islands whose start already met the tolerance: 0 iterations.
+    pub untouched: u32,
+    /// Islands certified without a projection pass.
+    pub certified: u32,
+    /// Islands that ended at the floor of their own rounding.
+    pub at_floor: u32,
+    /// Islands that used up their iterations.
+    pub capped: u32,
+    /// Islands that stalled above the floor.
+    pub stalled: u32,
+    /// Springs that no island needed: broken, or with both ends pinned.
+    pub springs_skipped: u32,
+}
+
+impl<T: crate::Real> Report<T> {
+    pub(crate) fn new(springs_skipped: usize) -> Self {
+        Self {
+            iterations: 0,
+            upper: T::ZERO,
+            lower: T::ZERO,
+            clamped: 0,
+            islands: 0,
+            untouched: 0,
+            certified: 0,
+            at_floor: 0,
+            capped: 0,
+            stalled: 0,
+            springs_skipped: springs_skipped as u32,
+        }
+    }
+
+    pub(crate) fn add(&mut self, island: &IslandReport<T>) {
+        let ended = |ending| u32::from(island.solve.ending == ending);
+        self.iterations = self.iterations.saturating_add(island.solve.iterations);
+        self.upper += island.solve.upper;
+        self.lower += island.solve.lower;
+        self.clamped += island.clamped;
+        self.islands += 1;
+        self.untouched += ended(Ending::Untouched);
+        self.certified += u32::from(island.certified);
+        self.at_floor += ended(Ending::Floor);
+        self.capped += ended(Ending::Capped);
+        self.stalled += ended(Ending::Stalled);
+    }
+
+    /// Did no island need a projection pass?
+    pub fn is_certified(&self) -> bool {
+        self.certified == self.islands
+    }
+}

@@ -1,0 +1,282 @@
+//! A scene: particles, springs, and the memory that a step needs. [`Scene`] has a fixed capacity and is built in place;
+//! [`MassSpring`] is the same over any owner of memory.
+
+use core::marker::PhantomData;
+
+use crate::energy::Energies;
+use crate::error::StepError;
+use crate::hessian::{Hessian, Scaling};
+use crate::integrator::Integrator;
+use crate::islands::Islands;
+use crate::law::Hookean;
+use crate::memory::{Fixed, Memory, SliceList, Slices};
+use crate::network::{Network, State};
+use crate::parts::{Parts, Work};
+use crate::pins::Motion;
+use crate::real::Real;
+use crate::report::{IslandReport, Report};
+use crate::vec3::Vec3;
+
+/// Up to `N` particles and `S` springs in arrays, to be placed in a `static`.
+pub type Scene<T, const N: usize, const S: usize, L = Hookean> = MassSpring<Fixed<T, N, S, L>>;
+
+/// A scene in two borrowed buffers of any size.
+pub type SceneIn<'a, T, L = Hookean> = MassSpring<Slices<'a, T, L>>;
+
+/// Particles, springs and the memory of a step, over any owner of memory.
+pub struct MassSpring<M: Memory> {
+    pub(crate) network: Network<M>,
+    pub(crate) islands: Islands<M>,
+    pub(crate) work: WorkLists<M>,
+}
+
+/// The solver's vectors (DESIGN: `Scene` holds the state and the PCG vectors).
+pub(crate) struct WorkLists<M: Memory> {
+    pub(crate) x: M::Particles<[M::Real; 3]>,
+    pub(crate) r: M::Particles<[M::Real; 3]>,
+    pub(crate) b: M::Particles<[M::Real; 3]>,
+    pub(crate) p: M::Particles<[M::Real; 3]>,
+    pub(crate) y: M::Particles<[M::Real; 3]>,
+    pub(crate) inertia: M::Particles<M::Real>,
+    pub(crate) mu: M::Particles<M::Real>,
+    pub(crate) block: M::Particles<[M::Real; 6]>,
+    pub(crate) hessian: M::Springs<[M::Real; 4]>,
+}
+
+/// Builds a scene whose lists are all made by the same expression.
+macro_rules! scene {
+    ($particles:expr, $springs:expr) => {
+        MassSpring {
+            network: Network {
+                position: $particles,
+                velocity: $particles,
+                mass: $particles,
+                slot: $particles,
+                ends: $springs,
+                stiffness: $springs,
+                rest_length: $springs,
+            },
+            islands: Islands {
+                particle: $particles,
+                list: $particles,
+                ends: $springs,
+                spring: $springs,
+                count: 0,
+                free: 0,
+                edges: 0,
+                current: false,
+            },
+            work: WorkLists {
+                x: $particles,
+                r: $particles,
+                b: $particles,
+                p: $particles,
+                y: $particles,
+                inertia: $particles,
+                mu: $particles,
+                block: $particles,
+                hessian: $springs,
+            },
+        }
+    };
+}
+
+impl<T: Real, L: crate::Law, const N: usize, const S: usize> Scene<T, N, S, L> {
+    /// An empty scene, all zeros: as a `static` it lies in .bss and never crosses the stack.
+    #[allow(clippy::new_without_default)] // A `default()` would build a large value on the stack.
+    pub const fn new() -> Self {
+        scene!(heapless::Vec::new(), heapless::Vec::new())
+    }
+}
+
+/// An owner of memory whose lists start empty: what a growable one implements.
+pub trait Growable: Memory {
+    /// An empty list of something per particle.
+    fn particles<X: Copy + 'static>() -> Self::Particles<X>;
+    /// An empty list of something per spring.
+    fn springs<X: Copy + 'static>() -> Self::Springs<X>;
+}
+
+impl<M: Growable> MassSpring<M> {
+    /// An empty scene.
+    pub fn empty() -> Self {
+        scene!(M::particles(), M::springs())
+    }
+}
+
+/// Cuts `n` arrays of `W` off the front of a buffer.
+fn cut<'a, X, const W: usize>(buffer: &mut &'a mut [X], n: usize) -> Option<SliceList<'a, [X; W]>> {
+    let (front, rest) = core::mem::take(buffer).split_at_mut_checked(n.checked_mul(W)?)?;
+    *buffer = rest;
+    Some(SliceList::new(front.as_chunks_mut().0))
+}
+
+fn cut_flat<'a, X>(buffer: &mut &'a mut [X], n: usize) -> Option<SliceList<'a, X>> {
+    let (front, rest) = core::mem::take(buffer).split_at_mut_checked(n)?;
+    *buffer = rest;
+    Some(SliceList::new(front))
+}
+
+impl<'a, T: Real, L: crate::Law> SceneIn<'a, T, L> {
+    /// How many numbers and words [`SceneIn::in_buffers`] needs for so many particles and springs.
+    pub const fn needs(particles: usize, springs: usize) -> (usize, usize) {
+        (30 * particles + 6 * springs, 7 * particles + 5 * springs)
+    }
+
+    /// An empty scene for up to so many particles and springs, in borrowed buffers; `None` if they are too small.
+    ///
+    /// ```
+    /// use hooke::SceneIn;
+    /// let (reals, words) = SceneIn::<f64>::needs(2, 1);
+    /// let (mut reals, mut words) = (vec![0.0; reals], vec![0; words]);
+    /// let mut scene = SceneIn::<f64>::in_buffers(&mut reals, &mut words, 2, 1).ok_or("too small")?;
+    /// let a = scene.particle([0.0; 3], 1.0)?;
+    /// let b = scene.particle([1.0, 0.0, 0.0], 1.0)?;
+    /// scene.spring(a, b, 100.0)?;
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn in_buffers(
+        mut reals: &'a mut [T],
+        mut words: &'a mut [u32],
+        particles: usize,
+        springs: usize,
+    ) -> Option<Self> {
+        let (reals, words, n, s) = (&mut reals, &mut words, particles, springs);
+        Some(MassSpring {
+            network: Network {
+                position: cut(reals, n)?,
+                velocity: cut(reals, n)?,
+                mass: cut_flat(reals, n)?,
+                slot: cut_flat(words, n)?,
+                ends: cut(words, s)?,
+                stiffness: cut_flat(reals, s)?,
+                rest_length: cut_flat(reals, s)?,
+            },
+            islands: Islands {
+                particle: cut_flat(words, n)?,
+                list: cut(words, n)?,
+                ends: cut(words, s)?,
+                spring: cut_flat(words, s)?,
+                count: 0,
+                free: 0,
+                edges: 0,
+                current: false,
+            },
+            work: WorkLists {
+                x: cut(reals, n)?,
+                r: cut(reals, n)?,
+                b: cut(reals, n)?,
+                p: cut(reals, n)?,
+                y: cut(reals, n)?,
+                inertia: cut_flat(reals, n)?,
+                mu: cut_flat(reals, n)?,
+                block: cut(reals, n)?,
+                hessian: cut(reals, s)?,
+            },
+        })
+    }
+}
+
+impl<M: Memory> MassSpring<M> {
+    /// Advances by one step; pins rest. On an error nothing has changed.
+    pub fn step<I: Integrator<M::Real>>(&mut self, integrator: &mut I) -> Result<Report<M::Real>, StepError> {
+        integrator.advance(self.parts(), &[], &mut |_| {})
+    }
+
+    /// Advances by one step over which some pins move.
+    pub fn step_moving<I: Integrator<M::Real>>(
+        &mut self,
+        integrator: &mut I,
+        motion: &[Motion<M::Real>],
+    ) -> Result<Report<M::Real>, StepError> {
+        integrator.advance(self.parts(), motion, &mut |_| {})
+    }
+
+    /// Advances by one step and shows the report of each island on the way.
+    pub fn step_watched<I: Integrator<M::Real>>(
+        &mut self,
+        integrator: &mut I,
+        motion: &[Motion<M::Real>],
+        mut watch: impl FnMut(&IslandReport<M::Real>),
+    ) -> Result<Report<M::Real>, StepError> {
+        integrator.advance(self.parts(), motion, &mut watch)
+    }
+
+    /// All of the scene as slices, islands renewed if pins or springs have changed.
+    pub fn parts(&mut self) -> Parts<'_, M::Real, M::Law> {
+        if !self.islands.current {
+            self.islands.renew(&mut self.network);
+        }
+        let Self { network, islands, work } = self;
+        Parts {
+            position: &mut network.position,
+            velocity: &mut network.velocity,
+            mass: &network.mass,
+            slot: &network.slot,
+            spring_ends: &network.ends,
+            stiffness: &network.stiffness,
+            rest_length: &network.rest_length,
+            particle: &islands.particle,
+            islands: islands.islands(),
+            ends: &islands.ends,
+            spring: &islands.spring,
+            free: islands.free,
+            edges: islands.edges,
+            x: &mut work.x,
+            work: Work {
+                r: &mut work.r,
+                b: &mut work.b,
+                p: &mut work.p,
+                y: &mut work.y,
+                inertia: &mut work.inertia,
+                mu: &mut work.mu,
+                block: &mut work.block,
+                hessian: &mut work.hessian,
+            },
+            law: PhantomData,
+        }
+    }
+
+    /// A read-only view of particles and springs.
+    pub fn state(&self) -> State<'_, M::Real> {
+        self.network.state()
+    }
+
+    /// Energies, tensions, forces and stiffness of the springs.
+    pub fn springs(&self) -> Energies<'_, M::Real, M::Law> {
+        Energies { state: self.state(), law: PhantomData }
+    }
+
+    /// q: where the particles are, m
+    pub fn positions(&self) -> &[Vec3<M::Real>] {
+        &self.network.position
+    }
+
+    /// q̇: how fast they move, m/s
+    pub fn velocities(&self) -> &[Vec3<M::Real>] {
+        &self.network.velocity
+    }
+
+    /// Number of islands: parts that are solved apart.
+    pub fn islands(&mut self) -> usize {
+        self.parts().islands.len()
+    }
+
+    /// Number of free particles, the unknowns of a step.
+    pub fn free_particles(&mut self) -> usize {
+        self.parts().free
+    }
+
+    /// The force that the support of particle `i` must exert to hold it at rest, N: minus all forces on it in the
+    /// present state (springs with their damping, and `forces`). These are the rows that P drops. O(springs).
+    pub fn reaction<F: crate::Force<M::Real>>(&self, i: usize, forces: &F) -> Option<Vec3<M::Real>> {
+        crate::reaction::reaction(&self.springs(), i, forces)
+    }
+
+    /// What [`Hessian`] a spring has in the present state, unscaled and unclamped; `None` if it is broken.
+    pub fn hessian(&self, j: usize) -> Option<Hessian<M::Real>> {
+        let state = self.state();
+        let stretched = crate::Stretched::new(state.delta(state.live(j)?));
+        Some(Hessian::new(state.spring(j), stretched, M::Real::ZERO, Scaling::unit()))
+    }
+}
