@@ -1,19 +1,34 @@
 //! A mesh as a file holds it, before any physics: points and the cells that join them.
+//!
+//! Particle ids are the file's points in the file's order (0-based), used or not; nothing is merged, dropped or
+//! reordered. The one exception is STL, which has no indices at all (see [`stl`](self)'s reader).
 
-/// One element of a mesh; indices are 0-based, in the file's own order.
-#[derive(Debug, Clone, Copy, PartialEq, Eq)]
-pub enum Cell {
-    /// A line element.
-    Line([usize; 2]),
-    /// A triangle.
-    Triangle([usize; 3]),
-    /// A quadrilateral, corners in order around it.
-    Quad([usize; 4]),
-    /// A tetrahedron.
-    Tetrahedron([usize; 4]),
-    /// A hexahedron: bottom face around, then the top face around (VTK order).
-    Hexahedron([usize; 8]),
-}
+mod cell;
+mod edges;
+mod format;
+mod gmsh;
+mod gmsh_input;
+mod guard;
+mod info;
+mod measures;
+mod medit;
+mod obj;
+mod oddities;
+mod ply;
+mod stl;
+mod text;
+mod validate;
+mod vtk;
+mod vtk_cells;
+
+use std::path::Path;
+
+pub use cell::{Cell, KINDS};
+pub use format::Format;
+pub use info::{Info, KindCount, info};
+pub use measures::Lengths;
+
+use crate::error::InputError;
 
 /// Points and cells as loaded: every point of the file, in the file's order, used or not.
 #[derive(Debug, Clone, Default, PartialEq)]
@@ -24,4 +39,23 @@ pub struct Mesh {
     pub cells: Vec<Cell>,
     /// What a user should know about how the file was read (ignored parts, split polygons …), a line each.
     pub notes: Vec<String>,
+}
+
+/// Reads and validates a mesh; its extension says which format it is in.
+pub fn load(path: &Path) -> Result<Mesh, InputError> {
+    let format = Format::of(path)?;
+    let bytes = std::fs::read(path).map_err(|e| InputError::in_file(path, format!("cannot read: {e}")))?;
+    if bytes.iter().all(u8::is_ascii_whitespace) {
+        return Err(InputError::in_file(path, "the file is empty"));
+    }
+    let mesh = match format {
+        Format::Obj => obj::read(path, &bytes),
+        Format::Medit => medit::read(path, &bytes),
+        Format::Gmsh => gmsh::read(path, &bytes),
+        Format::Ply => ply::read(path, &bytes),
+        Format::VtkLegacy | Format::VtkXml => vtk::read(path, &bytes, format),
+        Format::Stl => stl::read(path, &bytes),
+    }?;
+    mesh.validate(path)?;
+    Ok(mesh)
 }
