@@ -1,0 +1,155 @@
+//! The motion as one picture: several moments side by side, springs coloured by their strain.
+//!
+//! PNG, because a hundred thousand lines are smaller as pixels than as paths, and every page shows it.
+//! Moments are chosen while the run goes on, when nobody knows yet how many frames there will be: every `stride`-th
+//! is kept, and the stride doubles whenever too many are.
+
+use std::io;
+use std::path::Path;
+
+use super::{Frame, canvas, safe};
+
+/// Lines in the whole picture. More take seconds to draw and make it no clearer.
+const MAX_LINES: usize = 150_000;
+/// Frames kept for each moment shown: enough to choose moments that look evenly spaced.
+const KEPT: usize = 8;
+/// Up to so many particles each one gets a dot; in a crowd only those that are pinned or have no spring.
+const FEW: usize = 64;
+
+/// What a picture needs to know of one spring. f32 is exact to a hundredth of a px.
+#[derive(Debug, Clone, Copy)]
+pub(super) struct Line {
+    pub(super) ends: [[f32; 3]; 2],
+    pub(super) strain: f64,
+}
+
+#[derive(Debug)]
+pub(super) struct Moment {
+    pub(super) time: f64,
+    pub(super) lines: Vec<Line>,
+    /// Particles drawn as dots, and whether they are pinned.
+    pub(super) dots: Vec<([f32; 3], bool)>,
+}
+
+/// A picture strip being collected.
+#[derive(Debug)]
+pub struct Strip {
+    size: (u32, u32),
+    moments: usize,
+    origin: Option<[f64; 3]>,
+    kept: Vec<Moment>,
+    /// The latest frame, where the stride passes over it: the end of a motion is always shown.
+    last: Option<Moment>,
+    stride: usize,
+    added: usize,
+}
+
+impl Default for Strip {
+    fn default() -> Self {
+        Self::new(1800, 1100, 6)
+    }
+}
+
+impl Strip {
+    /// An empty strip of `moments` pictures (at least one) in a file of `width` × `height` px.
+    #[must_use]
+    pub fn new(width: u32, height: u32, moments: usize) -> Self {
+        Self {
+            size: (width, height),
+            moments: moments.max(1),
+            origin: None,
+            kept: Vec::new(),
+            last: None,
+            stride: 1,
+            added: 0,
+        }
+    }
+
+    /// Takes note of a frame. With as many calls as moments each of them is shown; with more, the first, the last
+    /// and an even choice between. Points that are not finite are left out, with the springs that end in them.
+    ///
+    /// # Errors
+    /// Lists that contradict each other.
+    pub fn add(&mut self, time: f64, frame: &Frame<'_>) -> io::Result<()> {
+        frame.check()?;
+        // Relative to some point of the motion, so that f32 is enough far from the origin too.
+        let first = || frame.positions.iter().copied().find(|p| p.iter().all(|x| x.is_finite()));
+        self.origin = self.origin.or_else(first);
+        let moment = Moment::of(time, frame, self.origin.unwrap_or_default(), MAX_LINES / self.moments);
+        if self.added.is_multiple_of(self.stride) {
+            self.kept.push(moment);
+            self.last = None;
+        } else {
+            self.last = Some(moment);
+        }
+        self.added += 1;
+        if self.kept.len() > KEPT * self.moments {
+            let mut index = 0;
+            self.kept.retain(|_| {
+                index += 1;
+                index % 2 == 1
+            });
+            self.stride *= 2;
+        }
+        Ok(())
+    }
+
+    /// Draws the strip and writes it as PNG. Without frames it is an empty picture.
+    ///
+    /// # Errors
+    /// A size of zero or beyond memory, or the file system's error; then no file is left.
+    pub fn save(&self, path: &Path) -> io::Result<()> {
+        let all: Vec<&Moment> = self.kept.iter().chain(&self.last).collect();
+        let shown: Vec<&Moment> = if all.len() <= self.moments {
+            all
+        } else if self.moments == 1 {
+            all.last().copied().into_iter().collect()
+        } else {
+            let gaps = self.moments - 1;
+            (0..=gaps).map(|i| all[(i * (all.len() - 1) + gaps / 2) / gaps]).collect()
+        };
+        let picture = canvas::draw(self.size, &shown).ok_or_else(|| {
+            let message = format!("cannot draw a picture of {} x {} px", self.size.0, self.size.1);
+            io::Error::new(io::ErrorKind::InvalidInput, message)
+        })?;
+        let png = picture.encode_png().map_err(|error| io::Error::other(error.to_string()))?;
+        safe::write_file(path, |out| out.write_all(&png))
+    }
+}
+
+impl Moment {
+    fn of(time: f64, frame: &Frame<'_>, origin: [f64; 3], max_lines: usize) -> Self {
+        let relative = |id: usize| {
+            let point: [f32; 3] =
+                std::array::from_fn(|axis| (frame.positions[id][axis] - origin[axis]) as f32);
+            // Beyond this even squares of coordinates overflow; such a point is as lost as an infinite one.
+            point.iter().all(|x| x.abs() < 1e18).then_some(point)
+        };
+        let mut loose = vec![true; frame.positions.len()];
+        let mut lines = Vec::with_capacity(frame.springs.len().min(max_lines));
+        let share = max_lines as f64 / frame.springs.len() as f64;
+        for (j, (&[a, b], &strain)) in frame.springs.iter().zip(frame.strain).enumerate() {
+            (loose[a], loose[b]) = (false, false);
+            if scattered(j as u64) >= share {
+                continue;
+            }
+            if let (Some(a), Some(b)) = (relative(a), relative(b)) {
+                lines.push(Line { ends: [a, b], strain });
+            }
+        }
+        let few = frame.positions.len() <= FEW;
+        let dotted = (0..frame.positions.len()).filter(|&id| few || frame.fixed[id] || loose[id]);
+        let dots =
+            dotted.filter_map(|id| Some((relative(id)?, frame.fixed[id]))).take(max_lines.max(1)).collect();
+        Self { time, lines, dots }
+    }
+}
+
+/// A number in [0, 1) that looks random and is the same in every run (the finisher of SplitMix64). Any regular
+/// choice falls into step with some mesh: it takes springs of one kind only, or shows stripes.
+fn scattered(j: u64) -> f64 {
+    let mut bits = j.wrapping_add(1).wrapping_mul(0x9e37_79b9_7f4a_7c15);
+    bits = (bits ^ (bits >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    bits = (bits ^ (bits >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    ((bits ^ (bits >> 31)) >> 11) as f64 / (1_u64 << 53) as f64
+}
