@@ -1,5 +1,10 @@
 //! The host side of Hooke: meshes in, simulation, pictures and files out. It holds no numerics; those are in `hooke`.
 
+pub mod cli;
 pub mod error;
+pub mod heap;
 pub mod mesh;
+pub mod nearest;
 pub mod output;
+pub mod run;
+pub mod scene;

@@ -7,7 +7,9 @@ pub fn suggestion<S: AsRef<str>>(name: &str, known: &[S]) -> String {
         .map(|k| (strsim::damerau_levenshtein(name, k.as_ref()), k.as_ref()))
         .min_by_key(|(distance, _)| *distance);
     match nearest {
-        Some((distance, k)) if distance <= 1 + k.len().max(name.len()) / 3 => format!("; did you mean '{k}'?"),
+        Some((distance, k)) if distance <= 1 + k.len().max(name.len()) / 3 => {
+            format!("; did you mean '{k}'?")
+        }
         _ => String::new(),
     }
 }

@@ -42,7 +42,12 @@ pub fn named(scene: &str) -> Option<Result<Model, InputError>> {
 }
 
 /// The sizes after the colon, each at least `least`, their product within [`MOST`].
-fn sizes<const D: usize>(scene: &str, name: &str, size: Option<&str>, least: usize) -> Result<[usize; D], InputError> {
+fn sizes<const D: usize>(
+    scene: &str,
+    name: &str,
+    size: Option<&str>,
+    least: usize,
+) -> Result<[usize; D], InputError> {
     let form = NAMES.iter().find(|known| known.0 == name).map_or(name, |known| known.1);
     let refuse = |why: String| InputError::new(format!("scene '{scene}': {why}; the form is {form}"));
     let size = size.ok_or_else(|| refuse("its size is missing".into()))?;

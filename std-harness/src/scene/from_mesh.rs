@@ -23,7 +23,10 @@ pub fn model(name: &str, mesh: &Mesh) -> Model {
             model.notes.push(format!("{count} {what}"));
         }
     };
-    note(mesh.isolated().len(), "points belong to no cell: particles without springs, they fall freely unless pinned");
+    note(
+        mesh.isolated().len(),
+        "points belong to no cell: particles without springs, they fall freely unless pinned",
+    );
     note(mesh.repeated().len(), "points lie exactly on another one: each stays a particle of its own");
     note(mesh.zero_length().len(), "edges have length 0: springs of rest length 0");
     model

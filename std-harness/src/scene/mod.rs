@@ -100,10 +100,12 @@ impl Model {
     pub fn build<T: Real>(&self) -> Result<MassSpring<Heap<T>>, InputError> {
         let mut scene = MassSpring::<Heap<T>>::empty();
         let real = T::from_f64;
-        let refuse = |e: EditError, value: String| InputError::new(format!("{}: {e} (it is {value})", self.name));
+        let refuse =
+            |e: EditError, value: String| InputError::new(format!("{}: {e} (it is {value})", self.name));
         for (x, m) in self.position.iter().zip(&self.mass) {
             scene.particle(x.map(real), real(*m)).map_err(|e| {
-                let value = if matches!(e, EditError::Mass(_)) { format!("{m} kg") } else { format!("{x:?}") };
+                let value =
+                    if matches!(e, EditError::Mass(_)) { format!("{m} kg") } else { format!("{x:?}") };
                 refuse(e, value)
             })?;
         }

@@ -43,7 +43,9 @@ impl Path {
                 (amplitude.map(|a| a * phase.sin()), amplitude.map(|a| a * TAU * frequency * phase.cos()))
             }
             Self::Through { points } => {
-                let (Some(first), Some(last)) = (points.first(), points.last()) else { return ([0.0; 3], [0.0; 3]) };
+                let (Some(first), Some(last)) = (points.first(), points.last()) else {
+                    return ([0.0; 3], [0.0; 3]);
+                };
                 if t <= first.0 {
                     return (first.1, [0.0; 3]);
                 }

@@ -24,13 +24,17 @@ impl FromStr for PinRule {
             ("none", "") => Ok(Self::None),
             ("min-y", value) => match value.parse::<f64>() {
                 Ok(d) if d.is_finite() && d >= 0.0 => Ok(Self::MinY(d)),
-                _ => Err(InputError::new(format!("pin rule '{rule}': '{value}' is not a distance in metres, as in min-y:3"))),
+                _ => Err(InputError::new(format!(
+                    "pin rule '{rule}': '{value}' is not a distance in metres, as in min-y:3"
+                ))),
             },
             ("vertices", value) => value
                 .split(',')
                 .map(|id| {
                     id.trim().parse().map_err(|_| {
-                        InputError::new(format!("pin rule '{rule}': '{id}' is not a vertex id, as in vertices:0,31"))
+                        InputError::new(format!(
+                            "pin rule '{rule}': '{id}' is not a vertex id, as in vertices:0,31"
+                        ))
                     })
                 })
                 .collect::<Result<_, _>>()
@@ -60,7 +64,9 @@ impl PinRule {
                 for id in ids {
                     *pinned.get_mut(*id).ok_or_else(|| {
                         let last = position.len().saturating_sub(1);
-                        InputError::new(format!("pin rule: there is no vertex {id}; ids run from 0 to {last}"))
+                        InputError::new(format!(
+                            "pin rule: there is no vertex {id}; ids run from 0 to {last}"
+                        ))
                     })? = true;
                 }
             }

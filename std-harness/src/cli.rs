@@ -1,0 +1,210 @@
+//! The command line (DESIGN §6): options to plain values. What they mean is decided in [`crate::run::plan`].
+
+use std::path::PathBuf;
+
+use clap::error::{ContextKind, ContextValue, ErrorKind};
+use clap::{Args, Parser, Subcommand, ValueEnum};
+
+use crate::error::InputError;
+use crate::nearest;
+use crate::scene::PinRule;
+
+/// Simulate mass-spring systems, with an error bound on every linear solve.
+///
+/// `hooke` alone is `hooke run`: the curtain, with frames for ParaView, an energy plot and a picture in out/.
+#[derive(Debug, Parser)]
+#[command(name = "hooke", version, max_term_width = 110, after_help = scenes())]
+pub struct Cli {
+    /// What to do.
+    #[command(subcommand)]
+    pub command: Option<Command>,
+}
+
+/// What `hooke` can do.
+#[derive(Debug, Subcommand)]
+pub enum Command {
+    /// Simulate a scene: a name, a mesh file or a scene .toml (default: curtain)
+    #[command(after_help = scenes())]
+    Run(Box<RunArgs>),
+    /// Say what is in a mesh file
+    Info(InfoArgs),
+}
+
+/// Options of `hooke info`.
+#[derive(Debug, Args)]
+pub struct InfoArgs {
+    /// A mesh: .obj .mesh .msh .ply .vtk .vtu .vtp .stl
+    pub mesh: PathBuf,
+    /// As JSON instead of text
+    #[arg(long)]
+    pub json: bool,
+}
+
+/// Options of `hooke run`.
+#[derive(Debug, Clone, Default, Args)]
+pub struct RunArgs {
+    /// A scene's name, a mesh file or a scene .toml; a name wins over a file of that name, ./name is the file
+    pub scene: Option<String>,
+
+    /// Time step, s
+    #[arg(long, value_name = "S", allow_negative_numbers = true, help_heading = "Time")]
+    pub dt: Option<f64>,
+    /// Number of steps
+    #[arg(long, value_name = "N", conflicts_with = "seconds", help_heading = "Time")]
+    pub steps: Option<u64>,
+    /// Duration, s
+    #[arg(long, value_name = "T", allow_negative_numbers = true, help_heading = "Time")]
+    pub seconds: Option<f64>,
+
+    /// Time integration: euler
+    #[arg(long, value_name = "NAME", default_value = "euler", help_heading = "Method")]
+    pub integrator: String,
+    /// Linear solver: jacobi (block-Jacobi PCG)
+    #[arg(long, value_name = "NAME", default_value = "jacobi", help_heading = "Method")]
+    pub solver: String,
+    /// Relative tolerance of a solve: stop at β ≤ R²β₀ [default: 1e-6 in f64, 1e-4 in f32]
+    #[arg(long, value_name = "R", allow_negative_numbers = true, help_heading = "Method")]
+    pub tolerance: Option<f64>,
+    /// Absolute tolerance of a solve: stop at β ≤ J joules [default: 0]
+    #[arg(long, value_name = "J", allow_negative_numbers = true, help_heading = "Method")]
+    pub absolute: Option<f64>,
+    /// At most so many iterations per island and step [default: 10000]
+    #[arg(long, value_name = "N", help_heading = "Method")]
+    pub max_iterations: Option<u32>,
+    /// Precision of the simulation
+    #[arg(long, value_enum, default_value_t = Precision::F64, help_heading = "Method")]
+    pub precision: Precision,
+
+    /// Stiffness of every spring, N/m
+    #[arg(long, value_name = "K", allow_negative_numbers = true, help_heading = "Overrides of the scene")]
+    pub stiffness: Option<f64>,
+    /// Mass of every particle, kg
+    #[arg(long, value_name = "M", allow_negative_numbers = true, help_heading = "Overrides of the scene")]
+    pub mass: Option<f64>,
+    /// Gravity, m/s²
+    #[arg(long, value_name = "X,Y,Z", value_parser = triple, allow_hyphen_values = true, help_heading = "Overrides of the scene")]
+    pub gravity: Option<[f64; 3]>,
+    /// Initial velocity of the free particles, m/s
+    #[arg(long, value_name = "X,Y,Z", value_parser = triple, allow_hyphen_values = true, help_heading = "Overrides of the scene")]
+    pub velocity: Option<[f64; 3]>,
+    /// Pins instead of the scene's: none, min-y:D (within D m of the lowest y) or vertices:0,31
+    #[arg(long, value_name = "RULE", value_parser = pin_rule, help_heading = "Overrides of the scene")]
+    pub pin: Option<PinRule>,
+
+    /// Folder for ParaView frames, energy plot and picture [default: out, unless --final or --json is given]
+    #[arg(long, value_name = "DIR", help_heading = "Output")]
+    pub out: Option<PathBuf>,
+    /// Frames a second [default: 60]
+    #[arg(long, value_name = "F", allow_negative_numbers = true, help_heading = "Output")]
+    pub fps: Option<f64>,
+    /// Final positions and velocities as CSV
+    #[arg(long = "final", value_name = "FILE", help_heading = "Output")]
+    pub final_csv: Option<PathBuf>,
+    /// What the run did, as JSON
+    #[arg(long, value_name = "FILE", help_heading = "Output")]
+    pub json: Option<PathBuf>,
+    /// No progress and no summary
+    #[arg(long, help_heading = "Output")]
+    pub quiet: bool,
+}
+
+/// Precision of a simulation.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub enum Precision {
+    /// Double.
+    #[default]
+    F64,
+    /// Single.
+    F32,
+}
+
+/// Three numbers, `X,Y,Z`.
+fn triple(text: &str) -> Result<[f64; 3], String> {
+    let parts: Vec<&str> = text.split(',').map(str::trim).collect();
+    let [x, y, z] = parts.as_slice() else { return Err("expected three numbers, as in 0,-9.81,0".into()) };
+    let number = |part: &str| match part.parse::<f64>() {
+        Ok(x) if x.is_finite() => Ok(x),
+        _ => Err(format!("'{part}' is not a finite number")),
+    };
+    Ok([number(x)?, number(y)?, number(z)?])
+}
+
+fn pin_rule(text: &str) -> Result<PinRule, String> {
+    text.parse().map_err(|error: InputError| error.message)
+}
+
+/// The catalogue, for the end of `--help`.
+fn scenes() -> String {
+    let mut text = String::from("Scenes:\n");
+    for (_, form, what) in crate::scene::catalog::NAMES {
+        text.push_str(&format!("  {form:<16} {what}\n"));
+    }
+    text.push_str("  FILE             a mesh (.obj .mesh .msh .ply .vtk .vtu .vtp .stl) or a scene (.toml)");
+    text
+}
+
+/// Parses arguments (the program's name first). `Err(Ok(text))` is help or version to print, `Err(Err(e))` bad input.
+pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Command, Result<String, InputError>> {
+    let mut arguments: Vec<String> = arguments.into_iter().collect();
+    // Options without a command belong to `run`.
+    if let Some(first) = arguments.get(1) {
+        if first.starts_with('-') && !matches!(first.as_str(), "-h" | "--help" | "-V" | "--version") {
+            arguments.insert(1, "run".into());
+        }
+    }
+    match Cli::try_parse_from(&arguments) {
+        Ok(Cli { command: Some(command) }) => Ok(command),
+        Ok(Cli { command: None }) => match Cli::try_parse_from(["hooke", "run"]) {
+            Ok(Cli { command: Some(command) }) => Ok(command),
+            _ => Err(Err(InputError::new("nothing to do; try hooke --help"))),
+        },
+        Err(error) if matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) => {
+            Err(Ok(error.render().to_string()))
+        }
+        Err(error) => Err(Err(one_line(&error))),
+    }
+}
+
+/// Clap's message, cut down to one line with the nearest known name.
+fn one_line(error: &clap::Error) -> InputError {
+    let get = |kind| match error.get(kind) {
+        Some(ContextValue::String(s)) => Some(s.clone()),
+        Some(ContextValue::Strings(list)) => Some(list.join(", ")),
+        _ => None,
+    };
+    let suggestion = |kind| get(kind).map_or(String::new(), |near| format!("; did you mean '{near}'?"));
+    let message = match error.kind() {
+        ErrorKind::UnknownArgument => {
+            let argument = get(ContextKind::InvalidArg).unwrap_or_default();
+            if argument.starts_with('-') {
+                format!("unknown option '{argument}'{}", suggestion(ContextKind::SuggestedArg))
+            } else {
+                format!("unexpected argument '{argument}'")
+            }
+        }
+        ErrorKind::InvalidSubcommand => {
+            let command = get(ContextKind::InvalidSubcommand).unwrap_or_default();
+            let near = suggestion(ContextKind::SuggestedSubcommand);
+            let scene = crate::scene::catalog::named(&command).is_some() || command.contains('.');
+            let hint = if near.is_empty() && scene {
+                format!("; did you mean 'hooke run {command}'?")
+            } else {
+                near
+            };
+            format!("unknown command '{command}'{hint}")
+        }
+        ErrorKind::InvalidValue if get(ContextKind::ValidValue).is_some() => {
+            let value = get(ContextKind::InvalidValue).unwrap_or_default();
+            let valid = get(ContextKind::ValidValue).unwrap_or_default();
+            let option = get(ContextKind::InvalidArg).unwrap_or_default();
+            let known: Vec<&str> = valid.split(", ").collect();
+            format!("{option}: '{value}' is none of {valid}{}", nearest::suggestion(&value, &known))
+        }
+        _ => {
+            let text = error.to_string();
+            let first = text.split("\n\n").next().unwrap_or_default();
+            first.trim_start_matches("error: ").to_string()
+        }
+    };
+    InputError::new(format!("{message} (try hooke --help)"))
+}

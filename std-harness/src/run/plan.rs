@@ -1,0 +1,155 @@
+//! What a run will do, decided and checked before anything is simulated or written: the scene with its overrides, the
+//! step, the method, the outputs. An option wins over the scene file, the scene file over the defaults.
+
+use std::path::PathBuf;
+
+use crate::cli::{Precision, RunArgs};
+use crate::error::InputError;
+use crate::nearest;
+use crate::output::safe;
+use crate::scene::{Model, source};
+
+/// The most steps a run may have.
+const MOST_STEPS: f64 = 1e9;
+
+/// A run, decided.
+#[derive(Debug, Clone)]
+pub struct Plan {
+    /// The scene, overrides applied.
+    pub model: Model,
+    /// Time step, s.
+    pub dt: f64,
+    /// Number of steps.
+    pub steps: u64,
+    /// Relative tolerance; the kernel's default if none.
+    pub tolerance: Option<f64>,
+    /// Absolute tolerance, J.
+    pub absolute: f64,
+    /// At most so many iterations; the kernel's default if none.
+    pub max_iterations: Option<u32>,
+    /// Precision.
+    pub precision: Precision,
+    /// Folder for frames, plot and picture.
+    pub out: Option<PathBuf>,
+    /// Frames a second.
+    pub fps: f64,
+    /// Final state as CSV.
+    pub final_csv: Option<PathBuf>,
+    /// Outcome as JSON.
+    pub json: Option<PathBuf>,
+    /// No progress, no summary.
+    pub quiet: bool,
+}
+
+/// A number that must be positive and finite.
+fn positive(name: &str, x: f64) -> Result<f64, InputError> {
+    if x.is_finite() && x > 0.0 {
+        Ok(x)
+    } else {
+        Err(InputError::new(format!("{name} {x}: not a positive finite number")))
+    }
+}
+
+/// A number that must be finite and not negative.
+fn not_negative(name: &str, x: f64) -> Result<f64, InputError> {
+    if x.is_finite() && x >= 0.0 {
+        Ok(x)
+    } else {
+        Err(InputError::new(format!("{name} {x}: negative, infinite or NaN")))
+    }
+}
+
+fn known(what: &str, name: &str, names: &[&str]) -> Result<(), InputError> {
+    if names.contains(&name) {
+        return Ok(());
+    }
+    let near = nearest::suggestion(name, names);
+    Err(InputError::new(format!("unknown {what} '{name}'{near}; known: {}", names.join(", "))))
+}
+
+impl Plan {
+    /// Decides a run from its options.
+    pub fn new(args: &RunArgs) -> Result<Self, InputError> {
+        known("integrator", &args.integrator, &["euler"])?;
+        known("solver", &args.solver, &["jacobi"])?;
+        let loaded = source::load(args.scene.as_deref().unwrap_or("curtain"))?;
+        let (mut model, wanted) = (loaded.model, loaded.outputs);
+        override_model(&mut model, args)?;
+
+        let dt = positive("--dt", args.dt.unwrap_or(model.dt))?;
+        let steps = match (args.steps, args.seconds) {
+            (Some(steps), _) => steps as f64,
+            // A hair below a whole number of steps is that number, not one more.
+            (None, seconds) => {
+                (not_negative("--seconds", seconds.unwrap_or(model.seconds))? / dt - 1e-9).ceil().max(0.0)
+            }
+        };
+        if steps > MOST_STEPS {
+            return Err(InputError::new(format!(
+                "the run would take {steps:e} steps; the most is {MOST_STEPS:e}"
+            )));
+        }
+        let tolerance = args.tolerance.map(|r| not_negative("--tolerance", r)).transpose()?;
+        let absolute = not_negative("--absolute", args.absolute.unwrap_or(0.0))?;
+        let fps = positive("--fps", args.fps.or(wanted.fps).unwrap_or(60.0))?;
+
+        let (final_csv, json) =
+            (args.final_csv.clone().or(wanted.final_csv), args.json.clone().or(wanted.json));
+        let only_files = final_csv.is_some() || json.is_some();
+        let out = args.out.clone().or(wanted.dir).or_else(|| (!only_files).then(|| PathBuf::from("out")));
+        Ok(Self {
+            model,
+            dt,
+            steps: steps as u64,
+            tolerance,
+            absolute,
+            max_iterations: args.max_iterations,
+            precision: args.precision,
+            out,
+            fps,
+            final_csv,
+            json,
+            quiet: args.quiet,
+        })
+    }
+
+    /// Makes sure that every output can be written, before the first step.
+    pub fn prepare_outputs(&self) -> Result<(), InputError> {
+        for file in [&self.final_csv, &self.json].into_iter().flatten() {
+            safe::prepare_file(file)?;
+        }
+        self.out.as_deref().map_or(Ok(()), safe::prepare_dir)
+    }
+
+    /// Is there a frame after this step?
+    pub fn is_frame(&self, step: u64) -> bool {
+        let frames = |step: u64| (step as f64 * self.dt * self.fps + 1e-6).floor();
+        step == self.steps || step == 0 || frames(step) > frames(step - 1)
+    }
+}
+
+fn override_model(model: &mut Model, args: &RunArgs) -> Result<(), InputError> {
+    if let Some(k) = args.stiffness {
+        let k = not_negative("--stiffness", k)?;
+        model.springs.iter_mut().for_each(|spring| spring.stiffness = k);
+    }
+    if let Some(m) = args.mass {
+        model.mass.fill(positive("--mass", m)?);
+    }
+    if let Some(g) = args.gravity {
+        model.gravity = g;
+    }
+    if let Some(rule) = &args.pin {
+        model.pinned = rule.apply(&model.position)?;
+        // A path belongs to pins; those that the new rule lets go have none.
+        for moving in &mut model.moving {
+            moving.particles.retain(|i| model.pinned[*i]);
+        }
+    }
+    if let Some(v) = args.velocity {
+        for (velocity, pinned) in model.velocity.iter_mut().zip(&model.pinned) {
+            *velocity = if *pinned { [0.0; 3] } else { v };
+        }
+    }
+    Ok(())
+}

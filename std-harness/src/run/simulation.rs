@@ -1,0 +1,122 @@
+//! A model given to the kernel: the scene, the integrator with its forces, and the pins' motion.
+
+use std::fmt::Display;
+use std::io;
+use std::path::Path;
+
+use hooke::force::Coefficients;
+use hooke::{
+    Drag, Force, Gravity, LinearlyImplicitEuler, MassSpring, Motion, Real, Report, SceneIn, SpringDamping,
+    StepError,
+};
+
+use super::plan::Plan;
+use crate::error::InputError;
+use crate::heap::Heap;
+use crate::output::{Energy, table};
+use crate::scene::Moving;
+
+/// One damping coefficient per spring.
+#[derive(Debug, Clone)]
+pub struct Dampings<T>(Vec<T>);
+
+impl<T: Real> Coefficients<T> for Dampings<T> {
+    fn coefficient(&self, spring: usize) -> T {
+        self.0.as_slice().coefficient(spring)
+    }
+    fn invalid(&self, springs: usize) -> Option<usize> {
+        self.0.as_slice().invalid(springs)
+    }
+}
+
+type Forces<T> = ((((), Gravity<T>), Drag<T>), SpringDamping<Dampings<T>>);
+
+/// A running simulation in precision `T`.
+pub struct Simulation<T: Real> {
+    /// The kernel's scene.
+    pub scene: MassSpring<Heap<T>>,
+    euler: LinearlyImplicitEuler<T, Forces<T>>,
+    moving: Vec<Moving>,
+    /// Where the moving pins were at t = 0.
+    origin: Vec<[f64; 3]>,
+    motion: Vec<Motion<T>>,
+    dt: f64,
+}
+
+impl<T: Real + Display> Simulation<T> {
+    /// Builds the scene and the integrator; what the kernel refuses is bad input.
+    pub fn new(plan: &Plan) -> Result<Self, InputError> {
+        let model = &plan.model;
+        let real = T::from_f64;
+        let dampings = Dampings(model.springs.iter().map(|spring| real(spring.damping)).collect());
+        let mut euler = LinearlyImplicitEuler::new(real(plan.dt))
+            .with(Gravity(model.gravity.map(real)))
+            .with(Drag(real(model.drag)))
+            .with(SpringDamping(dampings))
+            .absolute(real(plan.absolute));
+        if let Some(tolerance) = plan.tolerance {
+            euler = euler.tolerance(real(tolerance));
+        }
+        if let Some(max_iterations) = plan.max_iterations {
+            euler = euler.max_iterations(max_iterations);
+        }
+        let scene = model.build::<T>()?;
+        // What would fail at the first step fails now, before anything is written.
+        euler
+            .forces
+            .check(model.mass.len(), model.springs.len())
+            .map_err(|e| InputError::new(e.to_string()))?;
+        let h = real(plan.dt);
+        if !(h * h > T::ZERO && (h * h).is_finite()) {
+            return Err(InputError::new(format!("--dt {}: outside the range of the precision", plan.dt)));
+        }
+        let origin = model.position.clone();
+        Ok(Self { scene, euler, moving: model.moving.clone(), origin, motion: Vec::new(), dt: plan.dt })
+    }
+
+    /// Step number `step`, counted from 1: from (step − 1)·dt to step·dt.
+    pub fn step(&mut self, step: u64) -> Result<Report<T>, StepError> {
+        let time = step as f64 * self.dt;
+        self.motion.clear();
+        for moving in &self.moving {
+            let (displacement, rate) = moving.path.at(time);
+            for &particle in &moving.particles {
+                let from = self.origin[particle];
+                let position = std::array::from_fn(|c| T::from_f64(from[c] + displacement[c]));
+                self.motion.push(Motion { particle, position, velocity: rate.map(T::from_f64) });
+            }
+        }
+        self.scene.step_moving(&mut self.euler, &self.motion)
+    }
+
+    /// Energies at a time, J.
+    pub fn energy(&self, time: f64) -> Energy {
+        let springs = self.scene.springs();
+        let (kinetic, potential) = (springs.kinetic().to_f64(), springs.potential().to_f64());
+        let gravity = self.euler.forces.potential_energy(self.scene.state()).to_f64();
+        Energy { time, kinetic, springs: potential, gravity, total: kinetic + potential + gravity }
+    }
+
+    /// Linear momentum, kg m/s.
+    pub fn momentum(&self) -> [f64; 3] {
+        self.scene.state().linear_momentum().map(T::to_f64)
+    }
+
+    /// The fastest particle and its speed, m/s.
+    pub fn fastest(&self) -> (usize, f64) {
+        let speed = |v: &[T; 3]| v.iter().map(|x| x.to_f64().powi(2)).sum::<f64>().sqrt();
+        let speeds = self.scene.velocities().iter().map(speed).enumerate();
+        speeds.fold((0, 0.0), |best, now| if now.1 > best.1 { now } else { best })
+    }
+
+    /// Bytes of the scene's lists: state, islands and the solver's vectors.
+    pub fn workspace_bytes(&self) -> usize {
+        let (reals, words) = SceneIn::<T>::needs(self.scene.positions().len(), self.scene.state().springs());
+        reals * size_of::<T>() + words * size_of::<u32>()
+    }
+
+    /// Writes the final CSV in this precision's own shortest decimals.
+    pub fn write_final(&self, file: &Path) -> io::Result<()> {
+        table::write_final(file, self.scene.positions(), self.scene.velocities())
+    }
+}
