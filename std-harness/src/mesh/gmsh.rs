@@ -48,6 +48,11 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<Mesh, InputError> {
         }
         r.input.end(&section)?;
     }
+    if !r.elements {
+        return Err(r
+            .input
+            .fail("no $Elements section: the file is cut short or was saved without elements"));
+    }
     if !in_order {
         r.mesh
             .notes

@@ -1,7 +1,7 @@
 //! A mesh as a file holds it, before any physics: points and the cells that join them.
 //!
 //! Particle ids are the file's points in the file's order (0-based), used or not; nothing is merged, dropped or
-//! reordered. The one exception is STL, which has no indices at all (see [`stl`](self)'s reader).
+//! reordered. The one exception is STL, which has no indices at all: there, exactly equal corners are one point.
 
 mod cell;
 mod edges;
@@ -20,6 +20,7 @@ mod text;
 mod validate;
 mod vtk;
 mod vtk_cells;
+mod vtk_legacy;
 
 use std::path::Path;
 

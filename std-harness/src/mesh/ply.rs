@@ -80,12 +80,18 @@ fn parse(file: &Path, bytes: &[u8]) -> Result<Mesh, InputError> {
     Ok(mesh)
 }
 
-/// What the crate says of a broken file, without the line that the error carries itself.
+/// What the crate says of a broken file, in one sentence: its own nests the line's text and the grammar it tried.
 fn reason(e: &ParseError) -> String {
     let text = e.to_string();
-    match e.line() {
-        Some(line) => text.trim_start_matches(&format!("Line {line}: ")).to_string(),
-        None => text,
+    let text = e.line().and_then(|line| text.strip_prefix(&format!("Line {line}: "))).unwrap_or(&text);
+    let Some((_, line)) = text.split_once("String: '") else { return text.into() };
+    let line = line.split('\'').next().unwrap_or("").trim();
+    match text.rsplit_once("Error: ").map(|(_, cause)| cause) {
+        Some(cause) if cause.starts_with("error at") => {
+            format!("'{line}' is no line of plain decimal numbers (nan and inf are not allowed)")
+        }
+        Some(cause) if !cause.starts_with("ParseError") => format!("'{line}': {cause}"),
+        _ => format!("'{line}' is no line of a PLY header"),
     }
 }
 

@@ -12,7 +12,7 @@ use vtkio::model::{CellType, DataSet, Piece, PolyDataPiece, UnstructuredGridPiec
 use super::cell::polygon_note;
 use super::guard::guarded;
 use super::vtk_cells::Cells;
-use super::{Format, Mesh};
+use super::{Format, Mesh, vtk_legacy};
 use crate::error::InputError;
 
 /// Reads a VTK file.
@@ -22,6 +22,9 @@ pub(super) fn read(file: &Path, bytes: &[u8], format: Format) -> Result<Mesh, In
     let (mark, what) = if format == Format::VtkXml { ("<", "XML") } else { ("# vtk DataFile", "legacy") };
     if !bytes[start..].starts_with(mark.as_bytes()) {
         return Err(fail(format!("not a VTK {what} file: it does not start with '{mark}'")));
+    }
+    if format == Format::VtkLegacy {
+        vtk_legacy::check(file, bytes)?;
     }
     let data = guarded(file, || match format {
         Format::VtkXml => Vtk::parse_xml(bytes),
