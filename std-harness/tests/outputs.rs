@@ -400,7 +400,7 @@ fn energies_read_back_bit_for_bit() {
 fn a_failed_write_leaves_the_earlier_file_or_none() {
     let dir = Scratch::new();
     let fail = |out: &mut dyn io::Write| {
-        out.write_all(&[b'x'; 200_000])?;
+        out.write_all("x".repeat(200_000).as_bytes())?;
         Err(io::Error::other("lost interest"))
     };
     let error = safe::write_file(&dir.join("new"), fail).unwrap_err().to_string();
