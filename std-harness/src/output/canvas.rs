@@ -1,25 +1,19 @@
 //! Moments onto pixels: layout, lines from far to near, labels and the colour bar.
 
-use tiny_skia::{Color, FillRule, LineCap, Paint, PathBuilder, Pixmap, Rect, Stroke, Transform};
+use tiny_skia::{FillRule, LineCap, PathBuilder, Pixmap, Rect, Stroke, Transform};
 
 use super::camera::{Camera, Seen};
+use super::colour::{RELAXED, Rgb, colour, mix, paint, percent, strain_colour, strain_range};
+use super::pen::{Pens, hairline};
 use super::picture::Moment;
 use super::stroke_font;
-
-type Rgb = [f32; 3];
 
 const BACKGROUND: Rgb = [0.055, 0.071, 0.098];
 const PANEL: Rgb = [0.082, 0.102, 0.137];
 const TEXT: Rgb = [0.72, 0.76, 0.82];
 const PINNED: Rgb = [1.0, 0.80, 0.30];
-const COMPRESSED: Rgb = [0.16, 0.48, 1.0];
-const RELAXED: Rgb = [0.80, 0.82, 0.85];
-const STRETCHED: Rgb = [1.0, 0.23, 0.15];
 /// How much of its colour the farthest line loses to the background: depth where lines only cross.
 const FOG: f64 = 0.62;
-/// Where neither end is larger, strains below this are rounding, not motion.
-const LEAST_RANGE: f64 = 1e-6;
-
 /// Part of the picture in px: left, top, width, height.
 #[derive(Clone, Copy)]
 struct Area {
@@ -46,7 +40,7 @@ pub(super) fn draw((width, height): (u32, u32), moments: &[&Moment]) -> Option<P
     let range = strain_range(moments);
     let whole = Area { x: 0.0, y: 0.0, w: width as f32, h: (height as f32 - legend).max(1.0) };
     let (columns, rows) = grid(moments.len(), whole, view.extent, text);
-    let pens = Pens::of(&view, moments);
+    let pens = Pens::of(&view.camera, view.extent, moments);
     for (index, moment) in moments.iter().enumerate() {
         let (w, h) = (whole.w / columns as f32, whole.h / rows as f32);
         let area = Area { x: (index % columns) as f32 * w, y: (index / columns) as f32 * h, w, h };
@@ -61,11 +55,7 @@ pub(super) fn draw((width, height): (u32, u32), moments: &[&Moment]) -> Option<P
 
 impl View {
     fn of(moments: &[&Moment]) -> Self {
-        let points = || {
-            let lines = moments.iter().flat_map(|moment| &moment.lines).flat_map(|line| line.ends);
-            let dots = moments.iter().flat_map(|moment| &moment.dots).map(|dot| dot.0);
-            lines.chain(dots).map(|point| point.map(f64::from))
-        };
+        let points = || moments.iter().flat_map(|moment| moment.seen());
         let camera = Camera::around(points());
         // Tighter than the corners of the box: seen obliquely, those stick out where the motion never goes.
         let none = (f64::INFINITY, f64::NEG_INFINITY);
@@ -82,44 +72,6 @@ impl View {
             middle: (0.5 * (x.0 + x.1), 0.5 * (y.0 + y.1)),
             extent: ((x.1 - x.0).max(least), (y.1 - y.0).max(least)),
         }
-    }
-}
-
-/// Sizes in metres at the centre's depth, the same in all moments.
-struct Pens {
-    width: f64,
-    /// Radius of a particle's dot.
-    bead: f64,
-}
-
-impl Pens {
-    /// As bold as the motion allows: so that the springs of a moment together could cover four fifths of the area
-    /// they lie in. In a lattice, where they cross, that is thin; in a rope it would be a beam, so a panel has its
-    /// own limits.
-    fn of(view: &View, moments: &[&Moment]) -> Self {
-        let mut lengths = Vec::new();
-        let (mut crowd, mut least) = (f64::INFINITY, 0.1 * view.extent.0.max(view.extent.1));
-        least *= least;
-        for moment in moments {
-            let (mut low, mut high) = ([f64::INFINITY; 2], [f64::NEG_INFINITY; 2]);
-            let mut sum = 0.0;
-            for line in &moment.lines {
-                let [a, b] = line.ends.map(|point| view.camera.see(point.map(f64::from)));
-                for (axis, value) in [(0, a.x), (1, a.y), (0, b.x), (1, b.y)] {
-                    low[axis] = low[axis].min(value);
-                    high[axis] = high[axis].max(value);
-                }
-                lengths.push((a.x - b.x).hypot(a.y - b.y));
-                sum += (a.x - b.x).hypot(a.y - b.y);
-            }
-            if sum > 0.0 {
-                crowd = crowd.min(((high[0] - low[0]) * (high[1] - low[1])).max(least) / sum);
-            }
-        }
-        let length = quantile(&mut lengths, 0.5);
-        // Particles without any spring are all there is to see.
-        let bead = if length > 0.0 { 0.12 * length } else { f64::INFINITY };
-        Self { width: 0.8 * crowd, bead }
     }
 }
 
@@ -160,35 +112,37 @@ fn panel(pixmap: &mut Pixmap, area: Area, view: &View, pens: &Pens, moment: &Mom
     let inner = inner(area, text);
     let px = scale(view.extent, inner);
     let centre = (f64::from(inner.x + 0.5 * inner.w), f64::from(inner.y + 0.5 * inner.h));
-    let place = |point: [f32; 3]| {
-        let seen = view.camera.see(point.map(f64::from));
+    let place = |point: [f64; 3]| {
+        let seen = view.camera.see(point);
         let x = centre.0 + px * (seen.x - view.middle.0);
         let y = centre.1 + px * (seen.y - view.middle.1);
         Seen { x, y, ..seen }
     };
-    let mut lines: Vec<_> = moment.lines.iter().map(|line| (line.ends.map(place), line.strain)).collect();
-    let width = (px * pens.width).clamp(0.7, f64::from(0.23 * text));
+    let mut lines: Vec<_> = moment.lines().map(|(ends, strain)| (ends.map(place), strain)).collect();
+    let width = (px * pens.width).clamp(0.3, f64::from(0.23 * text));
     let bead = (px * pens.bead).clamp(0.75 * width, f64::from(0.5 * text));
     lines.sort_by(|(a, _), (b, _)| (b[0].depth + b[1].depth).total_cmp(&(a[0].depth + a[1].depth)));
     let fog = |depth: f64| {
         let radius = if view.camera.radius > 0.0 { view.camera.radius } else { 1.0 };
         (FOG * (0.5 + 0.5 * depth / radius)).clamp(0.0, 1.0) as f32
     };
-    let mut path = PathBuilder::new();
     let mut pen = Stroke { line_cap: LineCap::Round, ..Stroke::default() };
     for ([a, b], strain) in &lines {
-        path.move_to(a.x as f32, a.y as f32);
-        path.line_to(b.x as f32, b.y as f32);
-        let Some(line) = path.finish() else {
-            path = PathBuilder::new();
-            continue;
-        };
-        pen.width = (width * 0.5 * (a.scale + b.scale)) as f32;
+        let (from, to) = ((a.x as f32, a.y as f32), (b.x as f32, b.y as f32));
         let tone = mix(strain_colour(strain / range), PANEL, fog(0.5 * (a.depth + b.depth)));
-        pixmap.stroke_path(&line, &paint(tone), &pen, Transform::identity(), None);
-        path = line.clear();
+        pen.width = (width * 0.5 * (a.scale + b.scale)) as f32;
+        if pen.width <= 1.0 {
+            hairline(pixmap, from, to, pen.width, tone);
+            continue;
+        }
+        let mut path = PathBuilder::new();
+        path.move_to(from.0, from.1);
+        path.line_to(to.0, to.1);
+        if let Some(line) = path.finish() {
+            pixmap.stroke_path(&line, &paint(tone), &pen, Transform::identity(), None);
+        }
     }
-    for &(point, pinned) in &moment.dots {
+    for (point, pinned) in moment.dots() {
         let at = place(point);
         let radius = at.scale * if pinned { (1.6 * width).max(bead).max(1.8) } else { bead };
         if let Some(circle) = PathBuilder::from_circle(at.x as f32, at.y as f32, radius as f32) {
@@ -219,57 +173,9 @@ fn bar(pixmap: &mut Pixmap, area: Area, range: f64, text: f32) {
     stroke_font::draw(pixmap, &format!("+{number}"), (left + w + text, y), text, &paint);
 }
 
-/// Half the width of the colour scale. Not the largest strain: the few springs at a pin would leave all others grey.
-fn strain_range(moments: &[&Moment]) -> f64 {
-    let strains = moments.iter().flat_map(|moment| &moment.lines).map(|line| line.strain.abs());
-    let mut strains: Vec<f64> = strains.filter(|strain| strain.is_finite()).collect();
-    let range = quantile(&mut strains, 0.96).max(LEAST_RANGE);
-    // Two digits are what the label shows.
-    let step = 10_f64.powf(range.log10().floor() - 1.0);
-    (range / step).ceil() * step
-}
-
-/// The value below which a share of the values lies; 0 without values.
-fn quantile(values: &mut [f64], share: f64) -> f64 {
-    if values.is_empty() {
-        return 0.0;
-    }
-    let index = (share * (values.len() - 1) as f64).round() as usize;
-    *values.select_nth_unstable_by(index, f64::total_cmp).1
-}
-
-fn percent(range: f64) -> String {
-    let percent = 100.0 * range;
-    if percent < 1e6 {
-        format!("{percent:.*}%", (1.0 - percent.log10().floor()).max(0.0) as usize)
-    } else {
-        format!("{percent:.1e}%")
-    }
-}
-
 /// Just enough decimals to tell neighbouring moments apart.
 fn decimals(moments: &[&Moment]) -> usize {
     let gaps = moments.windows(2).map(|pair| pair[1].time - pair[0].time).filter(|&gap| gap > 0.0);
     let least = gaps.fold(f64::INFINITY, f64::min);
     if least.is_finite() { (1.0 - least.log10()).ceil().clamp(0.0, 9.0) as usize } else { 2 }
-}
-
-/// −1 blue, 0 grey, 1 red; beyond them the ends, and grey for what is no number.
-fn strain_colour(value: f64) -> Rgb {
-    let end = if value < 0.0 { COMPRESSED } else { STRETCHED };
-    mix(RELAXED, end, if value.is_nan() { 0.0 } else { value.abs().min(1.0) as f32 })
-}
-
-fn mix(from: Rgb, to: Rgb, share: f32) -> Rgb {
-    std::array::from_fn(|channel| from[channel] + share * (to[channel] - from[channel]))
-}
-
-fn colour([r, g, b]: Rgb) -> Color {
-    Color::from_rgba(r, g, b, 1.0).unwrap_or(Color::BLACK)
-}
-
-fn paint(tone: Rgb) -> Paint<'static> {
-    let mut paint = Paint::default();
-    paint.set_color(colour(tone));
-    paint
 }

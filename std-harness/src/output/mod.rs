@@ -8,6 +8,8 @@ use std::io;
 
 mod camera;
 mod canvas;
+mod colour;
+mod pen;
 pub mod picture;
 pub mod plot;
 pub mod safe;

@@ -6,29 +6,35 @@
 
 use std::io;
 use std::path::Path;
+use std::sync::Arc;
 
 use super::{Frame, canvas, safe};
 
-/// Lines in the whole picture. More take seconds to draw and make it no clearer.
-const MAX_LINES: usize = 150_000;
+/// Springs drawn of a moment. More make a picture no clearer.
+const MAX_SPRINGS: usize = 300_000;
 /// Frames kept for each moment shown: enough to choose moments that look evenly spaced.
-const KEPT: usize = 8;
+const KEPT: usize = 6;
 /// Up to so many particles each one gets a dot; in a crowd only those that are pinned or have no spring.
 const FEW: usize = 64;
 
-/// What a picture needs to know of one spring. f32 is exact to a hundredth of a px.
-#[derive(Debug, Clone, Copy)]
-pub(super) struct Line {
-    pub(super) ends: [[f32; 3]; 2],
-    pub(super) strain: f64,
+/// The springs to draw, by number and ends. Shared by all moments between which nothing breaks.
+#[derive(Debug)]
+struct Network {
+    particles: usize,
+    springs: usize,
+    drawn: Vec<(usize, [usize; 2])>,
+    /// Particles drawn as dots: those without a spring, and all where they are few.
+    dotted: Vec<usize>,
 }
 
+/// What a picture needs to know of a frame. f32 is exact to a hundredth of a px; NaN where there is no such point.
 #[derive(Debug)]
 pub(super) struct Moment {
     pub(super) time: f64,
-    pub(super) lines: Vec<Line>,
-    /// Particles drawn as dots, and whether they are pinned.
-    pub(super) dots: Vec<([f32; 3], bool)>,
+    network: Arc<Network>,
+    points: Vec<[f32; 3]>,
+    strain: Vec<f32>,
+    pinned: Vec<usize>,
 }
 
 /// A picture strip being collected.
@@ -37,6 +43,7 @@ pub struct Strip {
     size: (u32, u32),
     moments: usize,
     origin: Option<[f64; 3]>,
+    network: Option<Arc<Network>>,
     kept: Vec<Moment>,
     /// The latest frame, where the stride passes over it: the end of a motion is always shown.
     last: Option<Moment>,
@@ -58,6 +65,7 @@ impl Strip {
             size: (width, height),
             moments: moments.max(1),
             origin: None,
+            network: None,
             kept: Vec::new(),
             last: None,
             stride: 1,
@@ -75,7 +83,12 @@ impl Strip {
         // Relative to some point of the motion, so that f32 is enough far from the origin too.
         let first = || frame.positions.iter().copied().find(|p| p.iter().all(|x| x.is_finite()));
         self.origin = self.origin.or_else(first);
-        let moment = Moment::of(time, frame, self.origin.unwrap_or_default(), MAX_LINES / self.moments);
+        let network = match self.network.take() {
+            Some(network) if network.is_of(frame) => network,
+            _ => Arc::new(Network::of(frame)),
+        };
+        self.network = Some(Arc::clone(&network));
+        let moment = Moment::of(time, frame, self.origin.unwrap_or_default(), network);
         if self.added.is_multiple_of(self.stride) {
             self.kept.push(moment);
             self.last = None;
@@ -117,31 +130,59 @@ impl Strip {
     }
 }
 
-impl Moment {
-    fn of(time: f64, frame: &Frame<'_>, origin: [f64; 3], max_lines: usize) -> Self {
-        let relative = |id: usize| {
-            let point: [f32; 3] =
-                std::array::from_fn(|axis| (frame.positions[id][axis] - origin[axis]) as f32);
-            // Beyond this even squares of coordinates overflow; such a point is as lost as an infinite one.
-            point.iter().all(|x| x.abs() < 1e18).then_some(point)
-        };
-        let mut loose = vec![true; frame.positions.len()];
-        let mut lines = Vec::with_capacity(frame.springs.len().min(max_lines));
-        let share = max_lines as f64 / frame.springs.len() as f64;
-        for (j, (&[a, b], &strain)) in frame.springs.iter().zip(frame.strain).enumerate() {
+impl Network {
+    fn of(frame: &Frame<'_>) -> Self {
+        let (particles, springs) = (frame.positions.len(), frame.springs.len());
+        let mut loose = vec![true; particles];
+        for &[a, b] in frame.springs {
             (loose[a], loose[b]) = (false, false);
-            if scattered(j as u64) >= share {
-                continue;
-            }
-            if let (Some(a), Some(b)) = (relative(a), relative(b)) {
-                lines.push(Line { ends: [a, b], strain });
-            }
         }
-        let few = frame.positions.len() <= FEW;
-        let dotted = (0..frame.positions.len()).filter(|&id| few || frame.fixed[id] || loose[id]);
-        let dots =
-            dotted.filter_map(|id| Some((relative(id)?, frame.fixed[id]))).take(max_lines.max(1)).collect();
-        Self { time, lines, dots }
+        let share = MAX_SPRINGS as f64 / springs as f64;
+        let drawn = frame.springs.iter().copied().enumerate();
+        let drawn = drawn.filter(|&(j, _)| scattered(j as u64) < share).collect();
+        let dotted = (0..particles).filter(|&id| particles <= FEW || loose[id]).collect();
+        Self { particles, springs, drawn, dotted }
+    }
+
+    fn is_of(&self, frame: &Frame<'_>) -> bool {
+        self.particles == frame.positions.len()
+            && self.springs == frame.springs.len()
+            && self.drawn.iter().all(|&(j, ends)| frame.springs[j] == ends)
+    }
+}
+
+impl Moment {
+    fn of(time: f64, frame: &Frame<'_>, origin: [f64; 3], network: Arc<Network>) -> Self {
+        let relative = |position: &[f64; 3]| {
+            let point: [f32; 3] = std::array::from_fn(|axis| (position[axis] - origin[axis]) as f32);
+            // Beyond this even squares of coordinates overflow; such a point is as lost as an infinite one.
+            if point.iter().all(|x| x.abs() < 1e18) { point } else { [f32::NAN; 3] }
+        };
+        let points = frame.positions.iter().map(relative).collect();
+        let strain = network.drawn.iter().map(|&(j, _)| frame.strain[j] as f32).collect();
+        let pinned = (0..frame.fixed.len()).filter(|&id| frame.fixed[id]).collect();
+        Self { time, network, points, strain, pinned }
+    }
+
+    /// The ends and the strain of every spring that can be seen.
+    pub(super) fn lines(&self) -> impl Iterator<Item = ([[f64; 3]; 2], f64)> {
+        let all = self.network.drawn.iter().zip(&self.strain);
+        all.map(|(&(_, ends), &strain)| (ends.map(|id| self.points[id].map(f64::from)), f64::from(strain)))
+            .filter(|(ends, _)| ends.as_flattened().iter().all(|x| x.is_finite()))
+    }
+
+    /// The particles drawn as dots and whether they are pinned; those last, to lie on top.
+    pub(super) fn dots(&self) -> impl Iterator<Item = ([f64; 3], bool)> {
+        let free = self.network.dotted.iter().map(|&id| (id, false));
+        let pinned = self.pinned.iter().map(|&id| (id, true));
+        free.chain(pinned)
+            .map(|(id, pinned)| (self.points[id].map(f64::from), pinned))
+            .filter(|(point, _)| point.iter().all(|x| x.is_finite()))
+    }
+
+    /// Every point of every line and dot.
+    pub(super) fn seen(&self) -> impl Iterator<Item = [f64; 3]> {
+        self.lines().flat_map(|(ends, _)| ends).chain(self.dots().map(|dot| dot.0))
     }
 }
 
