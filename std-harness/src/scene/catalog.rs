@@ -205,7 +205,7 @@ fn curtain() -> Model {
     model.drag = 0.15;
     for id in 0..N * N {
         let (along, down) = ((id % N) as f64 / 31.0, (id / N) as f64 / 31.0);
-        let fold = 0.07 * (std::f64::consts::TAU * folds * along).sin();
+        let fold = 0.052 * (std::f64::consts::TAU * folds * along).sin();
         model.position[id] = [gathered * along, -length * down, fold];
         model.velocity[id] = [1.2 * down * down, 0.0, 2.6 * down * (0.6 + along)];
         model.pinned[id] = id < N && (id % 4 == 0 || id == N - 1);
