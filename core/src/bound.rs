@@ -80,14 +80,57 @@ pub(crate) fn residual<T: Real, F: Force<T>>(
     }
 }
 
+/// |r|²/μ of one row, `weight` = 1/μ. Multiplied in this order it neither underflows nor overflows where the square of
+/// r would.
+#[inline(always)]
+pub(crate) fn square<T: Real>(r: Vec3<T>, weight: T) -> T {
+    vec3::dot(vec3::scale(weight, r), r)
+}
+
 /// ½ Σ |rᵢ|²/μᵢ as the stopping rules use it: not rounded up.
 #[inline]
-pub(crate) fn weighted<T: Real>(r: &[Vec3<T>], mu: &[T]) -> T {
+pub(crate) fn weighted<T: Real>(r: &[Vec3<T>], weight: &[T]) -> T {
     let mut sum = Lanes::new();
-    for (i, (r, mu)) in r.iter().zip(mu).enumerate() {
-        sum.add(i, vec3::dot(*r, *r) / *mu);
+    for (i, (r, weight)) in r.iter().zip(weight).enumerate() {
+        sum.add(i, square(*r, *weight));
     }
     T::HALF * sum.sum()
+}
+
+/// ½ Σ (δᵢ + k u (|A||x|)ᵢ)²/μᵢ: the β that rounding alone can leave after k updates of x, each of which rounds x by
+/// u|x| at most. What is stuck below it is as exact as the precision allows (Greenbaum 1997, attainable accuracy).
+/// `size` is scratch.
+pub(crate) fn attainable<T: Real, F: Force<T>>(
+    system: &System<'_, T, F>,
+    x: &[Vec3<T>],
+    error: &[Vec3<T>],
+    updates: u32,
+    weight: &[T],
+    size: &mut [Vec3<T>],
+) -> T {
+    for ((size, x), m) in size.iter_mut().zip(x).zip(system.inertia) {
+        *size = vec3::scale(*m, magnitude(*x));
+    }
+    let stiffest = |h: &Hessian<T>| h.alpha.abs() + vec3::dot(h.w, h.w);
+    let at = |i: usize| x.get(i).map_or([T::ZERO; 3], |x| magnitude(*x));
+    for (a, b, h) in system.each_pair() {
+        let term = vec3::scale(stiffest(&h), vec3::add(at(a), at(b)));
+        for row in [a, b] {
+            if let Some(size) = size.get_mut(row) {
+                *size = vec3::add(*size, term);
+            }
+        }
+    }
+    system.each_anchor(|a, h| {
+        if let Some(size) = size.get_mut(a) {
+            *size = vec3::add_scaled(*size, stiffest(&h), at(a));
+        }
+    });
+    let unit = T::from_count(updates as usize) * T::UNIT_ROUNDOFF;
+    for (size, error) in size.iter_mut().zip(error) {
+        *size = vec3::add_scaled(*error, unit, *size);
+    }
+    weighted(size, weight)
 }
 
 /// A factor and a term that cover the rounding and underflow of a sum of `n` non-negative terms.
@@ -97,16 +140,11 @@ fn cover<T: Real>(n: usize) -> (T, T) {
 }
 
 /// ½ Σ (|rᵢ| + δᵢ)²/μᵢ, rounded up: nothing that ½‖e‖²_A can exceed.
-pub(crate) fn upper<T: Real>(r: &[Vec3<T>], error: Option<&[Vec3<T>]>, mu: &[T]) -> T {
+pub(crate) fn upper<T: Real>(r: &[Vec3<T>], error: Option<&[Vec3<T>]>, weight: &[T]) -> T {
     let mut sum = Lanes::new();
-    for (i, (r, mu)) in r.iter().zip(mu).enumerate() {
+    for (i, (r, weight)) in r.iter().zip(weight).enumerate() {
         let delta = error.and_then(|error| error.get(i)).copied().unwrap_or([T::ZERO; 3]);
-        let size = vec3::add(magnitude(*r), delta);
-        let mut over = T::ZERO;
-        for s in size {
-            over += (s / *mu) * s;
-        }
-        sum.add(i, over);
+        sum.add(i, square(vec3::add(magnitude(*r), delta), *weight));
     }
     let (factor, term) = cover(3 * r.len());
     T::HALF * sum.sum() * factor + term

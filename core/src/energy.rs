@@ -72,6 +72,17 @@ impl<T: Real, L: Law> Energies<'_, T, L> {
         Stretched::new(self.state.delta(ends))
     }
 
+    /// Strain l − l₀ of a spring, m: positive where it is stretched; `None` if it is broken or out of range.
+    pub fn strain_of(&self, spring: usize) -> Option<T> {
+        Some(self.length_of(spring)? - self.state.spring(spring).rest_length)
+    }
+
+    /// Stretch factor σ = 1 − l₀/l < 1 of a spring; `None` if it is broken, of length 0, or out of range.
+    pub fn stretch_factor_of(&self, spring: usize) -> Option<T> {
+        let length = self.length_of(spring).filter(|length| *length > T::ZERO)?;
+        Some((length - self.state.spring(spring).rest_length) / length)
+    }
+
     /// Length l of a spring, m; `None` if it is broken or out of range.
     pub fn length_of(&self, spring: usize) -> Option<T> {
         Some(self.stretched(self.state.live(spring)?).length)

@@ -50,7 +50,8 @@ pub enum StepError {
     NotPinned(usize),
     /// A motion's position or velocity is infinite or NaN, or too far away to reach in one step.
     Motion(usize),
-    /// The step would give this particle an infinite or NaN position or velocity.
+    /// The step would give this particle, or one of the island that begins with it, an infinite or NaN position or
+    /// velocity, or no finite error bound.
     NotFinite(usize),
 }
 

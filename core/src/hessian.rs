@@ -76,12 +76,7 @@ impl<T: Real> Hessian<T> {
     /// H·d: one dot, one scatter.
     #[inline(always)]
     pub fn mul(&self, d: Vec3<T>) -> Vec3<T> {
-        let along = vec3::dot(self.w, d);
-        [
-            self.alpha * d[0] + self.w[0] * along,
-            self.alpha * d[1] + self.w[1] * along,
-            self.alpha * d[2] + self.w[2] * along,
-        ]
+        self.mul_and_form(d).0
     }
 
     /// H·d and dᵀHd = α dᵀd + (w·d)².

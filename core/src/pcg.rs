@@ -3,7 +3,8 @@
 //! x_{k+1} = x_k + a p, r_{k+1} = r_k − a A p, a = rᵀz/pᵀAp, z = D⁻¹r, p ← z + (r₊ᵀz₊/rᵀz) p.
 //!
 //! Iterations stop on β = ½ Σ|rᵢ|²/μᵢ, the upper bound on the error's energy: at the first of β ≤ R²β₀, β ≤ J,
-//! β ≤ the rounding of β itself (*at the floor*: success), or the maximal number of iterations. The recurrence's r
+//! β ≤ its own rounding (*at the floor*: success; that of r, or where nothing improves any more that of x as well), or
+//! the maximal number of iterations. The recurrence's r
 //! drifts from b − Ax; so once it says "done", r is computed anew with its rounding bound, and if the true β does not
 //! agree, iterations go on from the true residual. Every exit reports the bounds of the x it leaves.
 //!
@@ -59,8 +60,8 @@ pub(crate) struct Vectors<'a, T> {
     pub(crate) p: &'a mut [Vec3<T>],
     /// A p; after that, z
     pub(crate) y: &'a mut [Vec3<T>],
-    /// A ⪰ diag(μ)
-    pub(crate) mu: &'a [T],
+    /// 1/μ, A ⪰ diag(μ)
+    pub(crate) weight: &'a [T],
 }
 
 /// Solves A x = b. On an island that nothing holds (`free`), the sum of the momentum equations is repaired at every
@@ -72,21 +73,21 @@ pub(crate) fn solve<T: Real, F: Force<T>>(
     stop: &Stop<T>,
     free: bool,
 ) -> Solve<T> {
-    let Vectors { b, x, r, p, y, mu } = v;
+    let Vectors { b, x, r, p, y, weight } = v;
     for ((x, r), b) in x.iter_mut().zip(r.iter_mut()).zip(b) {
         *x = [T::ZERO; 3];
         *r = *b;
     }
-    let start = bound::weighted(r, mu);
+    let start = bound::weighted(r, weight);
     let goal = larger(stop.relative * stop.relative * start, stop.absolute);
-    if start <= goal || start == T::ZERO || stop.max_iterations == 0 {
-        let ending = if start <= goal || start == T::ZERO { Ending::Untouched } else { Ending::Capped };
-        let (upper, lower) = if start == T::ZERO {
-            (T::ZERO, T::ZERO)
-        } else {
-            preconditioner.apply(r, y);
-            (bound::upper(r, None, mu), bound::lower(system, r, None, y))
-        };
+    let met = start <= goal && start.is_finite();
+    if met || stop.max_iterations == 0 {
+        let ending = if met { Ending::Untouched } else { Ending::Capped };
+        if r.iter().all(|r| *r == [T::ZERO; 3]) {
+            return Solve { iterations: 0, upper: T::ZERO, lower: T::ZERO, ending };
+        }
+        preconditioner.apply(r, y);
+        let (upper, lower) = (bound::upper(r, None, weight), bound::lower(system, r, None, y));
         return Solve { iterations: 0, upper, lower, ending };
     }
 
@@ -94,15 +95,22 @@ pub(crate) fn solve<T: Real, F: Force<T>>(
     let blind = T::from_count(16) * T::UNIT_ROUNDOFF;
     let (mut iterations, mut from) = (0, start);
     loop {
-        let target = larger(goal, blind * blind * from);
-        let stuck =
-            iterate(system, preconditioner, [x, r, p, y], mu, target, stop.max_iterations, &mut iterations);
+        let (target, before) = (larger(goal, blind * blind * from), iterations);
+        let stuck = iterate(
+            system,
+            preconditioner,
+            [x, r, p, y],
+            weight,
+            target,
+            stop.max_iterations,
+            &mut iterations,
+        );
         if free {
             keep_momentum(system.inertia, b, x);
         }
         bound::residual(system, b, x, r, p);
-        let reached = bound::weighted(r, mu);
-        let floor = bound::weighted(p, mu);
+        let reached = bound::weighted(r, weight);
+        let floor = bound::weighted(p, weight);
         let ending = if reached <= goal {
             Ending::Converged
         } else if reached <= floor {
@@ -110,12 +118,14 @@ pub(crate) fn solve<T: Real, F: Force<T>>(
         } else if iterations >= stop.max_iterations {
             Ending::Capped
         } else if stuck || !(reached < T::HALF * from) {
-            Ending::Stalled
+            let updates = iterations - before;
+            let rounding = bound::attainable(system, x, p, updates, weight, y);
+            if reached <= rounding { Ending::Floor } else { Ending::Stalled }
         } else {
             from = reached;
             continue;
         };
-        let upper = bound::upper(r, Some(p), mu);
+        let upper = bound::upper(r, Some(p), weight);
         preconditioner.apply(r, y);
         let lower = bound::lower(system, r, Some(p), y);
         return Solve { iterations, upper, lower, ending };
@@ -128,7 +138,7 @@ fn iterate<T: Real, F: Force<T>>(
     system: &System<'_, T, F>,
     preconditioner: &impl Preconditioner<T>,
     [x, r, p, y]: [&mut [Vec3<T>]; 4],
-    mu: &[T],
+    weight: &[T],
     target: T,
     max_iterations: u32,
     iterations: &mut u32,
@@ -144,12 +154,12 @@ fn iterate<T: Real, F: Force<T>>(
         }
         let step = rz / curvature;
         let mut beta = Lanes::new();
-        for (i, ((((x, r), p), y), mu)) in
-            x.iter_mut().zip(r.iter_mut()).zip(p.iter()).zip(y.iter()).zip(mu).enumerate()
+        for (i, ((((x, r), p), y), weight)) in
+            x.iter_mut().zip(r.iter_mut()).zip(p.iter()).zip(y.iter()).zip(weight).enumerate()
         {
             *x = vec3::add_scaled(*x, step, *p);
             *r = vec3::add_scaled(*r, -step, *y);
-            beta.add(i, vec3::dot(*r, *r) / *mu);
+            beta.add(i, bound::square(*r, *weight));
         }
         *iterations += 1;
         if !(T::HALF * beta.sum() > target) {

@@ -151,10 +151,17 @@ impl<T: Real, F: Force<T>> Integrator<T> for LinearlyImplicitEuler<T, F> {
             let Work { r, b, p, y, inertia, mu, block, hessian } = work;
             let system = system(rows, pairs, anchors, inertia, hessian, &self.forces);
             let jacobi = Jacobi::new(&system, block);
-            let solve =
-                pcg::solve(&system, &jacobi, Vectors { b, x, r, p, y, mu }, &self.stop, assembled.free);
+            for weight in mu.iter_mut() {
+                *weight = T::ONE / *weight;
+            }
+            let vectors = Vectors { b, x, r, p, y, weight: mu };
+            let solve = pcg::solve(&system, &jacobi, vectors, &self.stop, assembled.free);
+            let first_particle = rows.particle.first().map_or(0, |i| *i as usize);
+            if !solve.upper.is_finite() {
+                return Err(StepError::NotFinite(first_particle));
+            }
             let island = IslandReport {
-                first_particle: rows.particle.first().map_or(0, |i| *i as usize),
+                first_particle,
                 particles: rows.particle.len(),
                 clamped: assembled.clamped,
                 certified: assembled.certified,
