@@ -90,8 +90,10 @@ impl<T: crate::Real> Report<T> {
     pub(crate) fn add(&mut self, island: &IslandReport<T>) {
         let ended = |ending| u32::from(island.solve.ending == ending);
         self.iterations = self.iterations.saturating_add(island.solve.iterations);
-        self.upper += island.solve.upper;
-        self.lower += island.solve.lower;
+        // Sums of bounds are bounds: rounded up and down.
+        let slack = T::TWO * T::TWO * T::UNIT_ROUNDOFF;
+        self.upper = (self.upper + island.solve.upper) * (T::ONE + slack);
+        self.lower = (self.lower + island.solve.lower) * (T::ONE - slack);
         self.clamped += island.clamped;
         self.islands += 1;
         self.untouched += ended(Ending::Untouched);

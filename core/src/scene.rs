@@ -5,7 +5,6 @@ use core::marker::PhantomData;
 
 use crate::energy::Energies;
 use crate::error::StepError;
-use crate::hessian::{Hessian, Scaling};
 use crate::integrator::Integrator;
 use crate::islands::Islands;
 use crate::law::Hookean;
@@ -271,12 +270,5 @@ impl<M: Memory> MassSpring<M> {
     /// present state (springs with their damping, and `forces`). These are the rows that P drops. O(springs).
     pub fn reaction<F: crate::Force<M::Real>>(&self, i: usize, forces: &F) -> Option<Vec3<M::Real>> {
         crate::reaction::reaction(&self.springs(), i, forces)
-    }
-
-    /// What [`Hessian`] a spring has in the present state, unscaled and unclamped; `None` if it is broken.
-    pub fn hessian(&self, j: usize) -> Option<Hessian<M::Real>> {
-        let state = self.state();
-        let stretched = crate::Stretched::new(state.delta(state.live(j)?));
-        Some(Hessian::new(state.spring(j), stretched, M::Real::ZERO, Scaling::unit()))
     }
 }

@@ -6,17 +6,18 @@
 //! Source: the mass-spring lecture (assembling force and stiffness).
 
 use crate::energy::Energies;
-use crate::hessian::Hessian;
+use crate::hessian::{Hessian, Scaling};
 use crate::law::Law;
 use crate::real::Real;
 use crate::selection::{self, Ends};
+use crate::spring::Stretched;
 use crate::vec3::{self, Vec3};
 
 impl<T: Real, L: Law> Energies<'_, T, L> {
     /// f += −∂V/∂q, N. Rows beyond the slice are left out.
     pub fn add_force(&self, f: &mut [Vec3<T>]) {
         for (j, ends, _) in self.state.each_spring() {
-            let direction = crate::Stretched::new(self.state.delta(ends)).direction;
+            let direction = Stretched::new(self.state.delta(ends)).direction;
             selection::scatter(ends.a, ends.b, vec3::scale(-self.tension_of(j), direction), f);
         }
     }
@@ -44,12 +45,21 @@ impl<T: Real, L: Law> Energies<'_, T, L> {
         });
     }
 
+    /// H = αI + w wᵀ of a spring, N/m: 0 for a slack cable; `None` if it is broken or out of range.
+    pub fn hessian_of(&self, spring: usize) -> Option<Hessian<T>> {
+        let ends = self.state.live(spring)?;
+        let constants = self.state.spring(spring);
+        let stretched = Stretched::new(self.state.delta(ends));
+        if L::slackens(ends.cable) && stretched.length < constants.rest_length {
+            return Some(Hessian { alpha: T::ZERO, w: [T::ZERO; 3] });
+        }
+        Some(Hessian::new(constants, stretched, T::ZERO, Scaling::unit()))
+    }
+
     fn each_hessian(&self, mut visit: impl FnMut(Ends, Hessian<T>)) {
-        for (_, ends, spring) in self.state.each_spring() {
-            let stretched = crate::Stretched::new(self.state.delta(ends));
-            if !(L::slackens(ends.cable) && stretched.length < spring.rest_length) {
-                let unit = crate::Scaling::unit();
-                visit(ends, Hessian::new(spring, stretched, T::ZERO, unit));
+        for j in 0..self.state.springs() {
+            if let (Some(ends), Some(h)) = (self.state.live(j), self.hessian_of(j)) {
+                visit(ends, h);
             }
         }
     }

@@ -76,7 +76,7 @@ impl<T: Real> Force<T> for PointSpring<T> {
     }
 
     fn clamp(&mut self, rows: &Rows<'_, T>, scaling: Scaling<T>, fails: impl Fn(usize) -> bool) -> u32 {
-        if self.hessian.alpha < T::ZERO
+        if !(self.hessian.alpha >= T::ZERO)
             && rows.row(self.particle).is_some_and(fails)
             && let Some(stretched) = self.stretched(&rows.state)
         {

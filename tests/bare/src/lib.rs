@@ -5,7 +5,8 @@
 
 use hooke::force::SpringDamping;
 use hooke::{
-    Drag, LinearlyImplicitEuler, Mixed, Motion, PointForce, PointSpring, Scene, SceneIn, Snapshot, Spring, Stretched,
+    Drag, LinearlyImplicitEuler, Mixed, Motion, PointForce, PointSpring, Scene, SceneIn, Snapshot, Spring,
+    Stretched,
 };
 
 unsafe extern "C" {
@@ -68,15 +69,24 @@ macro_rules! entry_points {
             let mut seen = 0;
             let mut sum = k;
             match s.step_watched(&mut euler, &motion, |island| seen += island.solve.iterations) {
-                Ok(report) => sum += report.upper + report.lower + seen as $t + report.is_certified() as u8 as $t,
+                Ok(report) => {
+                    sum += report.upper + report.lower + seen as $t + report.is_certified() as u8 as $t
+                }
                 Err(_) => return -k,
             }
             _ = euler.inspect(s.parts(), &motion, |system, b, mu| {
                 system.blocks(|row, column, block| {
                     if (row, column) == (0, 1) {
                         *blocks = [
-                            block[0][0], block[0][1], block[0][2], block[1][0], block[1][1], block[1][2], block[2][0],
-                            block[2][1], block[2][2],
+                            block[0][0],
+                            block[0][1],
+                            block[0][2],
+                            block[1][0],
+                            block[1][1],
+                            block[1][2],
+                            block[2][0],
+                            block[2][1],
+                            block[2][2],
                         ];
                     }
                 });
@@ -105,14 +115,15 @@ macro_rules! entry_points {
             let springs = s.springs();
             let mut sum = springs.kinetic() + springs.potential() + springs.lagrangian();
             sum += springs.kinetic_of(j) + springs.potential_of(j) + springs.tension_of(j);
-            sum += springs.length_of(j).unwrap_or(0.0);
+            sum += springs.length_of(j).unwrap_or(0.0) + springs.strain_of(j).unwrap_or(0.0);
+            sum += springs.stretch_factor_of(j).unwrap_or(0.0);
             springs.add_force(y);
             springs.stiffness_product(x, y);
             springs.stiffness_blocks(|_, _, block| sum += block[0][0]);
             let state = s.state();
             sum += state.linear_momentum()[0] + state.angular_momentum()[1] + state.centre_of_mass()[2];
             sum += state.ends(j).map_or(0.0, |(a, b)| (a + b) as $t) + state.spring(j).stiffness;
-            sum += s.hessian(j).map_or(0.0, |h| h.alpha);
+            sum += s.springs().hessian_of(j).map_or(0.0, |h| h.alpha);
             sum += (s.islands() + s.free_particles() + s.positions().len() + s.velocities().len()) as $t;
             let saved = s.save(snapshot).is_ok() && s.restore(snapshot).is_ok();
             sum + saved as u8 as $t
