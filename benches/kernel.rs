@@ -40,7 +40,9 @@ fn assembly(c: &mut Criterion) {
         let (mut scene, mut euler) = moving(name);
         group.throughput(springs(&scene));
         group.bench_function(BenchmarkId::from_parameter(name), |bench| {
-            bench.iter(|| euler.inspect(scene.parts(), &[], |_, b, _| _ = black_box(b)).expect("a valid step"));
+            bench.iter(|| {
+                euler.inspect(scene.parts(), &[], |_, b, _| _ = black_box(b)).expect("a valid step")
+            });
         });
     }
 }

@@ -183,19 +183,21 @@ fn pair() -> Model {
     model
 }
 
-/// 32×32 particles of a sheet 1.3 m wide and 1.1 m long, gathered into folds on rings at every fourth particle of the
-/// top edge (and the last), swinging out of its plane. Made to be looked at.
+/// A sheet of 32×32 particles, 1.1 m long, gathered into folds on rings at every fourth particle of the top edge (and
+/// the last), swinging out of its plane. Made to be looked at.
 fn curtain() -> Model {
     const N: usize = 32;
-    let (width, length, gathered, folds) = (1.3, 1.1, 1.0, 4.0);
-    let rest = |id: usize| [(id % N) as f64 / 31.0 * width, -((id / N) as f64) / 31.0 * length, 0.0];
-    let mut model = Model::at_rest("curtain", (0..N * N).map(rest).collect(), 0.4 / (N * N) as f64);
-    grid_springs(&mut model, N, N, 400.0, 100.0);
+    let length = 1.1;
+    let (folds, width) = folds(N);
+    let (along, down) = (|id: usize| (id % N) as f64 / 31.0, |id: usize| (id / N) as f64 / 31.0);
+    let flat = (0..N * N).map(|id| [along(id) * width, -down(id) * length, 0.0]).collect();
+    let mut model = Model::at_rest("curtain", flat, 0.4 / (N * N) as f64);
+    grid_springs(&mut model, N, N, 300.0, 60.0);
     // Bending springs over every second particle keep the folds wide.
     for (di, dj) in [(0, 2), (2, 0)] {
         for i in 0..N - di {
             for j in 0..N - dj {
-                model.join(i * N + j, (i + di) * N + j + dj, 15.0);
+                model.join(i * N + j, (i + di) * N + j + dj, 10.0);
             }
         }
     }
@@ -204,13 +206,29 @@ fn curtain() -> Model {
     }
     model.drag = 0.15;
     for id in 0..N * N {
-        let (along, down) = ((id % N) as f64 / 31.0, (id / N) as f64 / 31.0);
-        let fold = 0.052 * (std::f64::consts::TAU * folds * along).sin();
-        model.position[id] = [gathered * along, -length * down, fold];
-        model.velocity[id] = [1.2 * down * down, 0.0, 2.6 * down * (0.6 + along)];
+        let [x, z] = folds[id % N];
+        model.position[id] = [x, -length * down(id), z];
+        model.velocity[id] = [1.2 * down(id) * down(id), 0.0, 2.6 * down(id) * (0.6 + along(id))];
         model.pinned[id] = id < N && (id % 4 == 0 || id == N - 1);
     }
     model.dt = 1.0 / 120.0;
     model.seconds = 3.0;
     model
+}
+
+/// `n` points at equal distances along the curve z = 0.055 sin(8πx), x ∈ [0, 1], and the length of the curve.
+fn folds(n: usize) -> (Vec<[f64; 2]>, f64) {
+    const FINE: usize = 20_000;
+    let point = |i: usize| {
+        let x = i as f64 / FINE as f64;
+        [x, 0.055 * (8.0 * std::f64::consts::PI * x).sin()]
+    };
+    let mut lengths = vec![0.0];
+    for i in 1..=FINE {
+        let ([x0, z0], [x1, z1]) = (point(i - 1), point(i));
+        lengths.push(lengths[i - 1] + ((x1 - x0).powi(2) + (z1 - z0).powi(2)).sqrt());
+    }
+    let whole = lengths[FINE];
+    let at = |k: usize| lengths.partition_point(|l| *l < whole * k as f64 / (n - 1) as f64).min(FINE);
+    ((0..n).map(|k| point(at(k))).collect(), whole)
 }
