@@ -11,16 +11,15 @@
 //! Source: the mass-spring lecture (assembly, linearly-implicit integration); DESIGN §2.4 and §4.
 
 use crate::certificate::{certify, charge, fails};
-use crate::force::{Force, Rows};
+use crate::force::Force;
 use crate::hessian::{Hessian, Scaling};
 use crate::law::Law;
 use crate::network::State;
-use crate::parts::{IslandParts, Work};
+use crate::parts::{Edge, IslandParts, Other};
 use crate::real::Real;
 use crate::selection::{self, Ends};
 use crate::spring::{Spring, Stretched};
-use crate::system::System;
-use crate::vec3;
+use crate::vec3::{self, Vec3};
 
 /// What assembling found.
 #[derive(Debug, Clone, Copy)]
@@ -33,21 +32,36 @@ pub(crate) struct Assembled {
     pub(crate) free: bool,
 }
 
-/// A spring of an island at the present state: its ends as particles, in the order of its slots.
-struct Edge<T> {
+/// Assembles A, μ and b of an island for a method with matrix M + θhD − sK.
+pub(crate) fn assemble<T: Real, F: Force<T>, L: Law>(
+    island: &mut IslandParts<'_, T>,
+    forces: &mut F,
+    h: T,
+    scaling: Scaling<T>,
+) -> Assembled {
+    inertia(island, forces, scaling);
+    let (replaced, points) = linearize::<T, F, L>(island, forces, scaling);
+    let certified = certify(island.work.inertia, island.work.mu);
+    let clamped = if certified { 0 } else { project::<T, F, L>(island, forces, scaling) };
+    right_side(island, forces, h, scaling);
+    Assembled { clamped: replaced + clamped, certified, free: island.anchors.is_empty() && points == 0 }
+}
+
+/// A spring of an island at the present state.
+struct Loaded<T> {
     spring: Spring<T>,
     stretched: Stretched<T>,
     damping: T,
     slack: bool,
 }
 
-impl<T: Real> Edge<T> {
+impl<T: Real> Loaded<T> {
     #[inline(always)]
-    fn new<F: Force<T>, L: Law>(state: &State<'_, T>, forces: &F, j: usize, a: usize, b: usize) -> Self {
-        let spring = state.spring(j);
-        let stretched = Stretched::new(selection::difference(a, b, state.position));
-        let damping = if F::DAMPS { forces.damping(j) } else { T::ZERO };
-        let marked = state.ends.get(j).is_some_and(|pair| Ends::unpack(*pair).cable);
+    fn new<F: Force<T>, L: Law>(state: &State<'_, T>, forces: &F, edge: &Edge) -> Self {
+        let spring = state.spring(edge.spring);
+        let stretched = Stretched::new(selection::difference(edge.a, edge.b, state.position));
+        let damping = if F::DAMPS { forces.damping(edge.spring) } else { T::ZERO };
+        let marked = state.ends.get(edge.spring).is_some_and(|pair| Ends::unpack(*pair).cable);
         Self {
             spring,
             stretched,
@@ -64,6 +78,13 @@ impl<T: Real> Edge<T> {
         Hessian::new(self.spring, self.stretched, self.damping, scaling)
     }
 
+    /// The force on end A.
+    #[inline(always)]
+    fn force(&self) -> Vec3<T> {
+        let pull = if self.slack { T::ZERO } else { -self.spring.tension(self.stretched.length) };
+        vec3::scale(pull, self.stretched.direction)
+    }
+
     /// Is H a replacement because the length is 0 and the rest length is not?
     #[inline(always)]
     fn replaced(&self) -> bool {
@@ -71,154 +92,135 @@ impl<T: Real> Edge<T> {
     }
 }
 
-/// The particle in a slot.
-#[inline(always)]
-fn particle(of: &[u32], slot: usize) -> usize {
-    of.get(slot).map_or(usize::MAX, |i| *i as usize)
-}
-
-/// Assembles A, μ and b of an island for a method with matrix M + θhD − sK and right side h f + … as above.
-pub(crate) fn assemble<T: Real, F: Force<T>, L: Law>(
-    island: &mut IslandParts<'_, T>,
-    particles: &[u32],
-    forces: &mut F,
-    h: T,
-    scaling: Scaling<T>,
-) -> Assembled {
-    let IslandParts { rows, pairs, anchors, spring, pin_velocity, free, work, .. } = island;
-    let state = rows.state;
-    let Work { b, inertia, mu, hessian, .. } = work;
-
-    for (((b, m), mu), i) in b.iter_mut().zip(inertia.iter_mut()).zip(mu.iter_mut()).zip(rows.particles()) {
-        let mass = state.mass.get(i).copied().unwrap_or(T::ONE);
+/// M + θhD, and zeros where f and μ will be summed.
+fn inertia<T: Real, F: Force<T>>(island: &mut IslandParts<'_, T>, forces: &F, scaling: Scaling<T>) {
+    let IslandParts { rows, work, .. } = island;
+    let lists = work.b.iter_mut().zip(work.inertia.iter_mut()).zip(work.mu.iter_mut());
+    for (((b, inertia), mu), i) in lists.zip(rows.particles()) {
+        let mass = rows.state.mass.get(i).copied().unwrap_or(T::ONE);
+        *inertia = if F::DRAGS { mass + scaling.damping * forces.drag(i, mass) } else { mass };
         *b = [T::ZERO; 3];
-        *m = if F::DRAGS { mass + scaling.damping * forces.drag(i, mass) } else { mass };
         *mu = T::ZERO;
     }
-    forces.add(rows, b);
+}
 
-    // Forces and Hessians, spring by spring; μ collects the compressed ones.
-    let ends = |e: usize, [a, b]: [u32; 2]| {
-        let a_particle = particle(rows.particle, a as usize);
-        let b_particle = if e < pairs.len() {
-            particle(rows.particle, b as usize)
-        } else {
-            particle(particles, b as usize)
-        };
-        (a_particle, b_particle)
-    };
-    let edges = || pairs.iter().chain(anchors.iter()).copied().zip(spring.iter()).enumerate();
-    let mut clamped = 0;
-    for ((e, (slots, j)), place) in edges().zip(hessian.iter_mut()) {
-        let (a, other) = ends(e, slots);
-        let edge = Edge::new::<F, L>(&state, forces, *j as usize, a, other);
-        let h = edge.hessian(scaling);
-        clamped += u32::from(edge.replaced());
+/// Forces into b, Hessians, and what compressed springs charge μ with. Answers how many Hessians are replacements, and
+/// how many point springs hold the island.
+fn linearize<T: Real, F: Force<T>, L: Law>(
+    island: &mut IslandParts<'_, T>,
+    forces: &mut F,
+    scaling: Scaling<T>,
+) -> (u32, u32) {
+    let edges = island.edges();
+    let IslandParts { rows, work, .. } = island;
+    let (mut replaced, mut points) = (0, 0);
+    forces.add(rows, work.b);
+    for (edge, place) in edges.zip(work.hessian.iter_mut()) {
+        let loaded = Loaded::new::<F, L>(&rows.state, forces, &edge);
+        let h = loaded.hessian(scaling);
         *place = h.pack();
-        let pull = if edge.slack { T::ZERO } else { -edge.spring.tension(edge.stretched.length) };
-        let f = vec3::scale(pull, edge.stretched.direction);
-        let [row, other_row] = slots.map(|slot| slot as usize);
-        if e < pairs.len() {
-            selection::scatter(row, other_row, f, b);
-            charge(mu, row, T::TWO, &h);
-            charge(mu, other_row, T::TWO, &h);
-        } else {
-            if let Some(b) = b.get_mut(row) {
-                *b = vec3::add(*b, f);
-            }
-            charge(mu, row, T::ONE, &h);
-        }
+        replaced += u32::from(loaded.replaced());
+        scatter(&edge, loaded.force(), work.b);
+        charge_ends(&edge, &h, work.mu);
     }
-    let mut points = 0;
     if F::ANCHORS {
-        clamped += forces.linearize(rows, scaling);
+        replaced += forces.linearize(rows, scaling);
         forces.hessians(rows, &mut |row, h| {
-            charge(mu, row, T::ONE, &h);
+            charge(work.mu, row, T::ONE, &h);
             points += 1;
         });
     }
+    (replaced, points)
+}
 
-    // Projection, only where the certificate fails.
-    let certified = certify(inertia, mu);
-    if !certified {
-        for ((e, (slots, j)), place) in edges().zip(hessian.iter_mut()) {
-            let [row, other_row] = slots.map(|slot| slot as usize);
-            let met = fails(mu, row) || (e < pairs.len() && fails(mu, other_row));
-            // Not `>= 0`: a NaN is to be replaced as well.
-            if met && !(place[0] >= T::ZERO) {
-                let (a, other) = ends(e, slots);
-                let edge = Edge::new::<F, L>(&state, forces, *j as usize, a, other);
-                *place = Hessian::clamped(edge.spring, edge.stretched, edge.damping, scaling).pack();
-                clamped += 1;
-            }
-        }
-        if F::ANCHORS {
-            clamped += forces.clamp(rows, scaling, |row| fails(mu, row));
-        }
-        for mu in mu.iter_mut() {
-            *mu = T::ZERO;
-        }
-        for ((e, slots), h) in pairs.iter().chain(anchors.iter()).enumerate().zip(hessian.iter()) {
-            let h = Hessian::unpack(*h);
-            let [row, other_row] = slots.map(|slot| slot as usize);
-            if e < pairs.len() {
-                charge(mu, row, T::TWO, &h);
-                charge(mu, other_row, T::TWO, &h);
-            } else {
-                charge(mu, row, T::ONE, &h);
-            }
-        }
-        if F::ANCHORS {
-            forces.hessians(rows, &mut |row, h| charge(mu, row, T::ONE, &h));
-        }
-        certify(inertia, mu);
-    }
-
-    // b = h f − θh D q̇ − Σ E_jᵀ H_j (Δq̇)_j
-    for (b, i) in b.iter_mut().zip(rows.particles()) {
-        *b = vec3::scale(h, *b);
-        if F::DRAGS
-            && let (Some(m), Some(v)) = (state.mass.get(i), state.velocity.get(i))
-        {
-            *b = vec3::add_scaled(*b, -(scaling.damping * forces.drag(i, *m)), *v);
-        }
-    }
-    let velocity = |i: usize| state.velocity.get(i).copied().unwrap_or([T::ZERO; 3]);
-    for ((e, slots), h) in pairs.iter().chain(anchors.iter()).enumerate().zip(hessian.iter()) {
-        let h = Hessian::unpack(*h);
-        let [row, other_row] = slots.map(|slot| slot as usize);
-        let v = velocity(particle(rows.particle, row));
-        if e < pairs.len() {
-            let product = h.mul(vec3::sub(v, velocity(particle(rows.particle, other_row))));
-            selection::scatter(other_row, row, product, b);
-        } else {
-            let pin = other_row.checked_sub(*free).and_then(|slot| pin_velocity.get(slot));
-            let product = h.mul(vec3::sub(v, pin.copied().unwrap_or([T::ZERO; 3])));
-            if let Some(b) = b.get_mut(row) {
-                *b = vec3::sub(*b, product);
-            }
+/// Clamps the compressed springs that meet a node without certificate, and computes μ anew. Answers how many.
+#[cold]
+fn project<T: Real, F: Force<T>, L: Law>(
+    island: &mut IslandParts<'_, T>,
+    forces: &mut F,
+    scaling: Scaling<T>,
+) -> u32 {
+    let edges = island.edges();
+    let IslandParts { rows, work, .. } = island;
+    let mut clamped = 0;
+    for (edge, place) in edges.clone().zip(work.hessian.iter_mut()) {
+        let met = fails(work.mu, edge.row) || matches!(edge.other, Other::Row(row) if fails(work.mu, row));
+        if met && !(place[0] >= T::ZERO) {
+            let loaded = Loaded::new::<F, L>(&rows.state, forces, &edge);
+            *place = Hessian::clamped(loaded.spring, loaded.stretched, loaded.damping, scaling).pack();
+            clamped += 1;
         }
     }
     if F::ANCHORS {
-        forces.hessians(rows, &mut |row, h| {
-            let v = velocity(particle(rows.particle, row));
-            if let Some(b) = b.get_mut(row) {
-                *b = vec3::sub(*b, h.mul(v));
+        clamped += forces.clamp(rows, scaling, |row| fails(work.mu, row));
+    }
+    for mu in work.mu.iter_mut() {
+        *mu = T::ZERO;
+    }
+    for (edge, h) in edges.zip(work.hessian.iter()) {
+        charge_ends(&edge, &Hessian::unpack(*h), work.mu);
+    }
+    if F::ANCHORS {
+        forces.hessians(rows, &mut |row, h| charge(work.mu, row, T::ONE, &h));
+    }
+    certify(work.inertia, work.mu);
+    clamped
+}
+
+/// b = h f − θh D q̇ − Σ E_jᵀ H_j (Δq̇)_j, f being in b.
+fn right_side<T: Real, F: Force<T>>(island: &mut IslandParts<'_, T>, forces: &F, h: T, scaling: Scaling<T>) {
+    let edges = island.edges();
+    let IslandParts { rows, work, pin_velocity, free, .. } = island;
+    let velocity = |i: usize| rows.state.velocity.get(i).copied().unwrap_or([T::ZERO; 3]);
+    for (b, i) in work.b.iter_mut().zip(rows.particles()) {
+        *b = vec3::scale(h, *b);
+        if F::DRAGS {
+            let mass = rows.state.mass.get(i).copied().unwrap_or(T::ONE);
+            *b = vec3::add_scaled(*b, -(scaling.damping * forces.drag(i, mass)), velocity(i));
+        }
+    }
+    for (edge, hessian) in edges.zip(work.hessian.iter()) {
+        let other = match edge.other {
+            Other::Row(_) => velocity(edge.b),
+            Other::Pin(slot) => {
+                let pin = slot.checked_sub(*free).and_then(|pin| pin_velocity.get(pin));
+                pin.copied().unwrap_or([T::ZERO; 3])
+            }
+        };
+        let product = Hessian::unpack(*hessian).mul(vec3::sub(velocity(edge.a), other));
+        scatter(&edge, vec3::scale(-T::ONE, product), work.b);
+    }
+    if F::ANCHORS {
+        forces.hessians(rows, &mut |row, hessian| {
+            let v = rows.particle.get(row).map_or([T::ZERO; 3], |i| velocity(*i as usize));
+            if let Some(b) = work.b.get_mut(row) {
+                *b = vec3::sub(*b, hessian.mul(v));
             }
         });
     }
-    Assembled { clamped, certified, free: anchors.is_empty() && points == 0 }
 }
 
-/// The operator over what `assemble` left in an island's lists.
-pub(crate) fn system<'a, T: Real, F: Force<T>>(
-    rows: Rows<'a, T>,
-    pairs: &'a [[u32; 2]],
-    anchors: &'a [[u32; 2]],
-    inertia: &'a [T],
-    hessian: &'a [[T; 4]],
-    forces: &'a F,
-) -> System<'a, T, F> {
-    let (pair_hessians, anchor_hessians) = hessian.split_at_checked(pairs.len()).unwrap_or((hessian, &[]));
-    System { inertia, pairs, pair_hessians, anchors, anchor_hessians, forces, rows }
+/// E_jᵀ on the free rows: f at the first end, −f at the other if it is free.
+#[inline(always)]
+fn scatter<T: Real>(edge: &Edge, f: Vec3<T>, b: &mut [Vec3<T>]) {
+    if let Some(row) = b.get_mut(edge.row) {
+        *row = vec3::add(*row, f);
+    }
+    if let Other::Row(other) = edge.other
+        && let Some(row) = b.get_mut(other)
+    {
+        *row = vec3::sub(*row, f);
+    }
+}
+
+/// c_e = 2 at both ends of a spring between free particles, 1 where the other end is pinned.
+#[inline(always)]
+fn charge_ends<T: Real>(edge: &Edge, h: &Hessian<T>, mu: &mut [T]) {
+    match edge.other {
+        Other::Row(other) => {
+            charge(mu, edge.row, T::TWO, h);
+            charge(mu, other, T::TWO, h);
+        }
+        Other::Pin(_) => charge(mu, edge.row, T::ONE, h),
+    }
 }

@@ -7,10 +7,10 @@
 //! belong to no island: nothing in a step needs them.
 //!
 //! Everything of an island is contiguous, from its first particle, and its indices are local: {A, B} gives A the bits
-//! of A alone. Cost: O(n + springs·log n) once after a change of pins or springs; no scratch (union–find runs in the
-//! lists that it fills).
+//! of A alone. Cost: O(n + springs·log n) once after a change of pins or springs; no scratch: union–find and the
+//! counting sorts run in the lists that they fill.
 
-use crate::memory::{List, Memory, part};
+use crate::memory::{List, Memory, part, part_mut};
 use crate::network::Network;
 use crate::selection::{Ends, MARK};
 
@@ -36,7 +36,7 @@ pub(crate) struct Islands<M: Memory> {
 }
 
 /// One island's place in the lists.
-#[derive(Debug, Clone, Copy, PartialEq, Eq, Default)]
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Island {
     pub(crate) first: usize,
     pub(crate) particles: usize,
@@ -45,6 +45,11 @@ pub(crate) struct Island {
     pub(crate) anchors: usize,
 }
 
+/// Which words of an island's entry count what.
+const PARTICLES: usize = 1;
+const PAIRS: usize = 3;
+const ANCHORS: usize = 4;
+
 impl Island {
     pub(crate) fn unpack(words: [u32; 5]) -> Self {
         let [first, particles, first_edge, pairs, anchors] = words.map(|word| word as usize);
@@ -52,19 +57,191 @@ impl Island {
     }
 }
 
-/// The root of i's tree; halves the path on the way. Roots are the smallest index of their tree.
+impl<M: Memory> Islands<M> {
+    /// Renews the numbering from the network's pins and springs.
+    pub(crate) fn renew(&mut self, network: &mut Network<M>) {
+        let slot: &mut [u32] = &mut network.slot;
+        let springs: &[[u32; 2]] = &network.ends;
+        connect(slot, springs);
+        let islands = name_islands(slot, &mut self.particle, &mut self.list);
+        let list = part_mut(&mut self.list, 0, islands);
+        let (free, edges) = count(slot, springs, list);
+        for kind in [PAIRS, ANCHORS] {
+            place_springs(kind, slot, springs, list, &mut self.ends, &mut self.spring);
+        }
+        place_particles(slot, list, free, &mut self.particle);
+        localise(slot, list, &mut self.ends);
+        self.count = islands;
+        self.free = free as usize;
+        self.edges = edges as usize;
+        self.current = true;
+    }
+
+    pub(crate) fn islands(&self) -> &[[u32; 5]] {
+        part(&self.list, 0, self.count)
+    }
+
+    /// Room for one more particle in the derived lists.
+    pub(crate) fn push_particle(&mut self) -> bool {
+        self.particle.push(0) && self.list.push([0; 5])
+    }
+
+    /// Room for one more spring in the derived lists.
+    pub(crate) fn push_spring(&mut self) -> bool {
+        self.ends.push([0; 2]) && self.spring.push(0)
+    }
+}
+
+/// Union–find over free particles: afterwards following slot[i] leads to the smallest particle of i's island. Pinned
+/// particles hold only [`MARK`].
+fn connect(slot: &mut [u32], springs: &[[u32; 2]]) {
+    for (i, parent) in slot.iter_mut().enumerate() {
+        *parent = if *parent & MARK != 0 { MARK } else { i as u32 };
+    }
+    for pair in springs {
+        let e = Ends::unpack(*pair);
+        if !e.broken && get(slot, e.a) != MARK && get(slot, e.b) != MARK {
+            let (a, b) = (root(slot, e.a as u32), root(slot, e.b as u32));
+            let (low, high) = if a < b { (a, b) } else { (b, a) };
+            set(slot, high as usize, low);
+        }
+    }
+}
+
+/// Numbers the islands by their first particle; slot[i] becomes the island of i. `of_root` is scratch. Answers how many
+/// there are.
+fn name_islands(slot: &mut [u32], of_root: &mut [u32], list: &mut [[u32; 5]]) -> usize {
+    let mut islands = 0;
+    for i in 0..slot.len() as u32 {
+        if get(slot, i as usize) != MARK && root(slot, i) == i {
+            set(of_root, i as usize, islands);
+            set(list, islands as usize, [0; 5]);
+            islands += 1;
+        }
+    }
+    // Downwards: the way from i to its root passes only smaller particles, whose parents still stand.
+    for i in (0..slot.len() as u32).rev() {
+        if get(slot, i as usize) != MARK {
+            let island = get(of_root, root(slot, i) as usize);
+            set(slot, i as usize, island);
+        }
+    }
+    islands as usize
+}
+
+/// Counts each island's particles and springs and turns the counts into places; the counts themselves are left at 0,
+/// to be counted up again while filling in. Answers the totals.
+fn count(slot: &[u32], springs: &[[u32; 2]], list: &mut [[u32; 5]]) -> (u32, u32) {
+    for k in slot.iter().filter(|k| **k != MARK) {
+        next(list, *k, PARTICLES);
+    }
+    for pair in springs {
+        if let Some((k, kind)) = island_of(slot, *pair) {
+            next(list, k, kind);
+        }
+    }
+    let (mut first, mut first_edge) = (0, 0);
+    for island in list {
+        let [_, particles, _, pairs, anchors] = *island;
+        *island = [first, 0, first_edge, 0, 0];
+        first += particles;
+        first_edge += pairs + anchors;
+    }
+    (first, first_edge)
+}
+
+/// Places the springs of one kind, in their order: pairs from the front of an island's range, anchors behind them. Ends
+/// are still particles, the free one first.
+fn place_springs(
+    kind: usize,
+    slot: &[u32],
+    springs: &[[u32; 2]],
+    list: &mut [[u32; 5]],
+    ends: &mut [[u32; 2]],
+    spring: &mut [u32],
+) {
+    for (j, pair) in springs.iter().enumerate() {
+        let Some((k, _)) = island_of(slot, *pair).filter(|found| found.1 == kind) else { continue };
+        let within = next(list, k, kind) as usize;
+        let Some(island) = list.get(k as usize).map(|words| Island::unpack(*words)) else { continue };
+        let place = island.first_edge + within + if kind == ANCHORS { island.pairs } else { 0 };
+        let e = Ends::unpack(*pair);
+        let [a, b] = if get(slot, e.a) == MARK { [e.b, e.a] } else { [e.a, e.b] };
+        set(ends, place, [a as u32, b as u32]);
+        set(spring, place, j as u32);
+    }
+}
+
+/// Slots: free particles by island and ascending, then the pinned ones.
+fn place_particles(slot: &mut [u32], list: &mut [[u32; 5]], free: u32, particle: &mut [u32]) {
+    let mut pinned = free;
+    for (i, slot) in slot.iter_mut().enumerate() {
+        let (place, mark) = if *slot == MARK {
+            pinned += 1;
+            (pinned - 1, MARK)
+        } else {
+            let within = next(list, *slot, PARTICLES);
+            (list.get(*slot as usize).map_or(0, |island| island[0]) + within, 0)
+        };
+        set(particle, place as usize, i as u32);
+        *slot = place | mark;
+    }
+}
+
+/// Ends that are particles become local slots, a < b in pairs (H does not care which end is A).
+fn localise(slot: &[u32], list: &[[u32; 5]], ends: &mut [[u32; 2]]) {
+    for words in list {
+        let island = Island::unpack(*words);
+        let range = part_mut(ends, island.first_edge, island.pairs + island.anchors);
+        for (e, ends) in range.iter_mut().enumerate() {
+            let [a, b] = ends.map(|i| get(slot, i as usize) & !MARK);
+            let a = a - words[0];
+            *ends = if e >= island.pairs {
+                [a, b]
+            } else if a < b - words[0] {
+                [a, b - words[0]]
+            } else {
+                [b - words[0], a]
+            };
+        }
+    }
+}
+
+/// The island of a spring and whether it is a pair or an anchor there; `None` if it is broken or both ends are pinned.
+/// slot[i] must be the island of i.
+fn island_of(slot: &[u32], pair: [u32; 2]) -> Option<(u32, usize)> {
+    let e = Ends::unpack(pair);
+    let (a, b) = (get(slot, e.a), get(slot, e.b));
+    match (e.broken, a == MARK, b == MARK) {
+        (false, false, false) => Some((a, PAIRS)),
+        (false, false, true) => Some((a, ANCHORS)),
+        (false, true, false) => Some((b, ANCHORS)),
+        _ => None,
+    }
+}
+
+/// The root of i's tree, which is the tree's smallest index; halves the path on the way.
 fn root(parent: &mut [u32], mut i: u32) -> u32 {
     while let Some(&up) = parent.get(i as usize) {
         if up == i {
             break;
         }
-        let above = parent.get(up as usize).copied().unwrap_or(up);
-        if let Some(place) = parent.get_mut(i as usize) {
-            *place = above;
-        }
+        let above = get(parent, up as usize);
+        set(parent, i as usize, above);
         i = above;
     }
     i
+}
+
+/// Adds one to a count of island k and answers what it was.
+fn next(list: &mut [[u32; 5]], k: u32, field: usize) -> u32 {
+    match list.get_mut(k as usize).and_then(|island| island.get_mut(field)) {
+        Some(n) => {
+            *n += 1;
+            *n - 1
+        }
+        None => 0,
+    }
 }
 
 fn set<X>(list: &mut [X], i: usize, value: X) {
@@ -75,160 +252,4 @@ fn set<X>(list: &mut [X], i: usize, value: X) {
 
 fn get(list: &[u32], i: usize) -> u32 {
     list.get(i).copied().unwrap_or(MARK)
-}
-
-/// Which fields of an island's entry count what.
-const PARTICLES: usize = 1;
-const PAIRS: usize = 3;
-const ANCHORS: usize = 4;
-
-/// Adds one to a field of island k and returns what it was.
-fn count(list: &mut [[u32; 5]], k: u32, field: usize) -> u32 {
-    match list.get_mut(k as usize).and_then(|island| island.get_mut(field)) {
-        Some(n) => {
-            *n += 1;
-            *n - 1
-        }
-        None => 0,
-    }
-}
-
-impl<M: Memory> Islands<M> {
-    /// Renews the numbering from the network's pins and springs.
-    pub(crate) fn renew(&mut self, network: &mut Network<M>) {
-        let Self { particle, list, ends, spring, .. } = self;
-        let slot: &mut [u32] = &mut network.slot;
-        let (particle, list): (&mut [u32], &mut [[u32; 5]]) = (particle, list);
-        let (edge_ends, edge_spring): (&mut [[u32; 2]], &mut [u32]) = (ends, spring);
-        let springs: &[[u32; 2]] = &network.ends;
-        let n = slot.len() as u32;
-
-        // Union–find over free particles; while it runs, the parent of i is slot[i], and pinned ones keep only MARK.
-        for (i, parent) in slot.iter_mut().enumerate() {
-            *parent = if *parent & MARK != 0 { MARK } else { i as u32 };
-        }
-        for pair in springs {
-            let e = Ends::unpack(*pair);
-            if !e.broken && get(slot, e.a) != MARK && get(slot, e.b) != MARK {
-                let (a, b) = (root(slot, e.a as u32), root(slot, e.b as u32));
-                let (low, high) = if a < b { (a, b) } else { (b, a) };
-                set(slot, high as usize, low);
-            }
-        }
-
-        // Islands are numbered by their first particle; a root is met before the rest of its tree. From here on
-        // slot[i] is the island of i; `particle` holds the island of each root meanwhile.
-        let mut islands = 0;
-        for i in 0..n {
-            if get(slot, i as usize) == MARK {
-                continue;
-            }
-            let r = root(slot, i);
-            if r == i {
-                set(particle, i as usize, islands);
-                set(list, islands as usize, [0; 5]);
-                islands += 1;
-            }
-        }
-        for i in 0..n {
-            if get(slot, i as usize) != MARK {
-                let r = root(slot, i);
-                // Roots are written last of all below, so that the trees above them stay readable.
-                count(list, get(particle, r as usize), PARTICLES);
-            }
-        }
-        for i in (0..n).rev() {
-            if get(slot, i as usize) != MARK {
-                let r = root(slot, i);
-                let island = get(particle, r as usize);
-                set(slot, i as usize, island);
-            }
-        }
-        let island_of = |slot: &[u32], pair: [u32; 2]| {
-            let e = Ends::unpack(pair);
-            let (a, b) = (get(slot, e.a), get(slot, e.b));
-            match (e.broken, a == MARK, b == MARK) {
-                (false, false, false) => Some((a, PAIRS)),
-                (false, false, true) => Some((a, ANCHORS)),
-                (false, true, false) => Some((b, ANCHORS)),
-                _ => None,
-            }
-        };
-        for pair in springs {
-            if let Some((k, field)) = island_of(slot, *pair) {
-                count(list, k, field);
-            }
-        }
-
-        // Counts to places; then count up again while filling in.
-        let (mut first, mut first_edge) = (0, 0);
-        for island in list.iter_mut().take(islands as usize) {
-            let [_, particles, _, pairs, anchors] = *island;
-            *island = [first, 0, first_edge, 0, 0];
-            first += particles;
-            first_edge += pairs + anchors;
-        }
-        for wanted in [PAIRS, ANCHORS] {
-            for (j, pair) in springs.iter().enumerate() {
-                let Some((k, field)) = island_of(slot, *pair).filter(|(_, field)| *field == wanted) else {
-                    continue;
-                };
-                let within = count(list, k, field);
-                let Some(island) = list.get(k as usize).map(|words| Island::unpack(*words)) else { continue };
-                let before = if wanted == ANCHORS { island.pairs } else { 0 };
-                let place = island.first_edge + before + within as usize;
-                let e = Ends::unpack(*pair);
-                let local = if get(slot, e.a) == MARK { [e.b, e.a] } else { [e.a, e.b] };
-                set(edge_ends, place, local.map(|i| i as u32));
-                set(edge_spring, place, j as u32);
-            }
-        }
-        let mut pinned = first;
-        for i in 0..n {
-            let k = get(slot, i as usize);
-            let place = if k == MARK {
-                pinned += 1;
-                pinned - 1
-            } else {
-                let within = count(list, k, PARTICLES);
-                list.get(k as usize).map_or(0, |island| island[0]) + within
-            };
-            set(particle, place as usize, i);
-            set(slot, i as usize, if k == MARK { place | MARK } else { place });
-        }
-
-        // Ends were particles so far; make them local slots.
-        for words in list.iter().take(islands as usize) {
-            let island = Island::unpack(*words);
-            let edges = island.pairs + island.anchors;
-            let range = crate::memory::part_mut(edge_ends, island.first_edge, edges);
-            for (e, ends) in range.iter_mut().enumerate() {
-                let [a, b] = ends.map(|i| get(slot, i as usize) & !MARK);
-                let a = a - words[0];
-                *ends = if e < island.pairs {
-                    let b = b - words[0];
-                    if a < b { [a, b] } else { [b, a] }
-                } else {
-                    [a, b]
-                };
-            }
-        }
-        self.count = islands as usize;
-        self.free = first as usize;
-        self.edges = first_edge as usize;
-        self.current = true;
-    }
-
-    pub(crate) fn islands(&self) -> &[[u32; 5]] {
-        part(&self.list, 0, self.count)
-    }
-
-    /// Room for one more particle or spring in the derived lists.
-    pub(crate) fn push_particle(&mut self) -> bool {
-        self.particle.push(0) && self.list.push([0; 5])
-    }
-
-    pub(crate) fn push_spring(&mut self) -> bool {
-        self.ends.push([0; 2]) && self.spring.push(0)
-    }
 }

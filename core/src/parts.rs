@@ -57,7 +57,52 @@ pub(crate) struct IslandParts<'a, T> {
     /// Velocities of all pins over this step, by slot after the last unknown
     pub(crate) pin_velocity: &'a [Vec3<T>],
     pub(crate) free: usize,
+    /// The particle of every slot, pins included
+    pub(crate) particle: &'a [u32],
     pub(crate) work: Work<'a, T>,
+}
+
+/// One spring of an island.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Edge {
+    /// Which spring
+    pub(crate) spring: usize,
+    /// Row of its first end
+    pub(crate) row: usize,
+    /// Its other end
+    pub(crate) other: Other,
+    /// The two ends as particles
+    pub(crate) a: usize,
+    pub(crate) b: usize,
+}
+
+/// Where the other end of an island's spring is.
+#[derive(Debug, Clone, Copy)]
+pub(crate) enum Other {
+    /// A row of the same island
+    Row(usize),
+    /// A pin, by slot
+    Pin(usize),
+}
+
+impl<'a, T: Real> IslandParts<'a, T> {
+    /// The island's springs in the order of its lists: pairs, then anchors.
+    #[inline(always)]
+    pub(crate) fn edges(&self) -> impl Iterator<Item = Edge> + Clone + use<'a, T> {
+        let (mine, all) = (self.rows.particle, self.particle);
+        let of =
+            |particles: &[u32], slot: u32| particles.get(slot as usize).map_or(usize::MAX, |i| *i as usize);
+        let pairs = self.pairs.iter().map(move |&[a, b]| (a, Other::Row(b as usize), of(mine, b)));
+        let anchors = self.anchors.iter().map(move |&[a, b]| (a, Other::Pin(b as usize), of(all, b)));
+        let ends = pairs.chain(anchors).zip(self.spring);
+        ends.map(move |((a, other, b), spring)| Edge {
+            spring: *spring as usize,
+            row: a as usize,
+            other,
+            a: of(mine, a),
+            b,
+        })
+    }
 }
 
 impl<T: Real, L> Parts<'_, T, L> {
@@ -84,6 +129,7 @@ impl<T: Real, L> Parts<'_, T, L> {
             x: part_mut(unknowns, first, n),
             pin_velocity,
             free: self.free,
+            particle: self.particle,
             work: Work {
                 r: part_mut(self.work.r, first, n),
                 b: part_mut(self.work.b, first, n),

@@ -37,7 +37,20 @@ pub struct System<'a, T, F> {
     pub(crate) rows: Rows<'a, T>,
 }
 
-impl<T: Real, F: Force<T>> System<'_, T, F> {
+impl<'a, T: Real, F: Force<T>> System<'a, T, F> {
+    /// The operator over what assembling left in an island's lists.
+    pub(crate) fn new(
+        rows: Rows<'a, T>,
+        [pairs, anchors]: [&'a [[u32; 2]]; 2],
+        inertia: &'a [T],
+        hessians: &'a [[T; 4]],
+        forces: &'a F,
+    ) -> Self {
+        let (pair_hessians, anchor_hessians) =
+            hessians.split_at_checked(pairs.len()).unwrap_or((hessians, &[]));
+        Self { inertia, pairs, pair_hessians, anchors, anchor_hessians, forces, rows }
+    }
+
     /// The springs with two free ends: (a, b, H).
     #[inline(always)]
     pub(crate) fn each_pair(&self) -> impl Iterator<Item = (usize, usize, Hessian<T>)> {

@@ -13,7 +13,7 @@
 //! Source: the mass-spring lecture (linearly-implicit time integration); Baraff & Witkin 1998, §3.
 
 use super::Integrator;
-use crate::assembly::{assemble, system};
+use crate::assembly::assemble;
 use crate::error::StepError;
 use crate::force::{Force, Gravity};
 use crate::hessian::Scaling;
@@ -123,12 +123,11 @@ impl<T: Real, F: Force<T>> LinearlyImplicitEuler<T, F> {
         mut visit: impl FnMut(&System<'_, T, F>, &[Vec3<T>], &[T]),
     ) -> Result<(), StepError> {
         let scaling = self.prepare(&mut parts, motion)?;
-        let particles = parts.particle;
         for k in 0..parts.islands.len() {
             let Some(mut island) = parts.island(k) else { continue };
-            assemble::<T, F, L>(&mut island, particles, &mut self.forces, self.dt, scaling);
+            assemble::<T, F, L>(&mut island, &mut self.forces, self.dt, scaling);
             let IslandParts { rows, pairs, anchors, work: Work { b, inertia, mu, hessian, .. }, .. } = island;
-            visit(&system(rows, pairs, anchors, inertia, hessian, &self.forces), b, mu);
+            visit(&System::new(rows, [pairs, anchors], inertia, hessian, &self.forces), b, mu);
         }
         Ok(())
     }
@@ -143,13 +142,12 @@ impl<T: Real, F: Force<T>> Integrator<T> for LinearlyImplicitEuler<T, F> {
     ) -> Result<Report<T>, StepError> {
         let scaling = self.prepare(&mut parts, motion)?;
         let mut report = Report::new(parts.spring_ends.len() - parts.edges);
-        let particles = parts.particle;
         for k in 0..parts.islands.len() {
             let Some(mut island) = parts.island(k) else { continue };
-            let assembled = assemble::<T, F, L>(&mut island, particles, &mut self.forces, self.dt, scaling);
+            let assembled = assemble::<T, F, L>(&mut island, &mut self.forces, self.dt, scaling);
             let IslandParts { rows, pairs, anchors, x, work, .. } = island;
             let Work { r, b, p, y, inertia, mu, block, hessian } = work;
-            let system = system(rows, pairs, anchors, inertia, hessian, &self.forces);
+            let system = System::new(rows, [pairs, anchors], inertia, hessian, &self.forces);
             let jacobi = Jacobi::new(&system, block);
             for weight in mu.iter_mut() {
                 *weight = T::ONE / *weight;
