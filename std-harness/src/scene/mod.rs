@@ -5,6 +5,7 @@ pub mod from_mesh;
 pub mod motion;
 pub mod pins;
 pub mod source;
+pub mod toml;
 
 pub use motion::{Moving, Path};
 pub use pins::PinRule;
