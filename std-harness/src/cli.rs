@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 
 use crate::error::InputError;
 use crate::nearest;
@@ -165,6 +165,18 @@ pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Command, Res
     }
 }
 
+/// The names of all commands.
+fn commands() -> Vec<String> {
+    Cli::command().get_subcommands().map(|command| command.get_name().to_string()).collect()
+}
+
+/// The names of all options, with their dashes. (Clap's own suggestions miss swapped letters in short names.)
+fn options() -> Vec<String> {
+    let cli = Cli::command();
+    let all = cli.get_subcommands().flat_map(|command| command.get_arguments());
+    all.filter_map(|argument| argument.get_long()).map(|long| format!("--{long}")).collect()
+}
+
 /// Clap's message, cut down to one line with the nearest known name.
 fn one_line(error: &clap::Error) -> InputError {
     let get = |kind| match error.get(kind) {
@@ -172,24 +184,22 @@ fn one_line(error: &clap::Error) -> InputError {
         Some(ContextValue::Strings(list)) => Some(list.join(", ")),
         _ => None,
     };
-    let suggestion = |kind| get(kind).map_or(String::new(), |near| format!("; did you mean '{near}'?"));
     let message = match error.kind() {
         ErrorKind::UnknownArgument => {
             let argument = get(ContextKind::InvalidArg).unwrap_or_default();
             if argument.starts_with('-') {
-                format!("unknown option '{argument}'{}", suggestion(ContextKind::SuggestedArg))
+                format!("unknown option '{argument}'{}", nearest::suggestion(&argument, &options()))
             } else {
                 format!("unexpected argument '{argument}'")
             }
         }
         ErrorKind::InvalidSubcommand => {
             let command = get(ContextKind::InvalidSubcommand).unwrap_or_default();
-            let near = suggestion(ContextKind::SuggestedSubcommand);
-            let scene = crate::scene::catalog::named(&command).is_some() || command.contains('.');
-            let hint = if near.is_empty() && scene {
+            let is_scene = crate::scene::catalog::named(&command).is_some() || command.contains('.');
+            let hint = if is_scene {
                 format!("; did you mean 'hooke run {command}'?")
             } else {
-                near
+                nearest::suggestion(&command, &commands())
             };
             format!("unknown command '{command}'{hint}")
         }

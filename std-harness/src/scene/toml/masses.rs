@@ -5,6 +5,7 @@
 
 use super::Source;
 use super::schema::SceneFile;
+use super::value::Positive;
 use crate::error::InputError;
 use crate::mesh::Mesh;
 use crate::scene::Model;
@@ -28,7 +29,10 @@ pub(super) fn set(
                 return refuse(format!("[mass] values: {} masses for {n} particles", values.len()));
             }
             (None, Some(values), None, None, None) => {
-                model.mass = values.iter().map(|m| m.0).collect();
+                for (mass, value) in model.mass.iter_mut().zip(values) {
+                    let positive = Positive::try_from(*value.get_ref());
+                    *mass = positive.map_err(|m| source.error(&value.span(), m))?.0;
+                }
                 shared = Some("values");
             }
             (None, None, Some(total), None, None) => {

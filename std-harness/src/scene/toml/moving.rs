@@ -1,8 +1,11 @@
 //! `[[moving]]`: pins and their path. A path starts where its pins are: a jump at t = 0 would be a blow.
 
+use ::toml::Spanned;
+
 use super::Source;
 use super::pins::particle;
 use super::schema::{MovingEntry, SceneFile};
+use super::value::Waypoint;
 use crate::error::InputError;
 use crate::scene::{Model, Moving, Path};
 
@@ -34,27 +37,33 @@ fn path(entry: &MovingEntry, at: &std::ops::Range<usize>, source: &Source<'_>) -
     match (&entry.linear, &entry.oscillate, &entry.through) {
         (Some(linear), None, None) => Ok(Path::Linear { velocity: linear.velocity.0 }),
         (None, Some(o), None) => Ok(Path::Oscillate { amplitude: o.amplitude.0, frequency: o.frequency.0 }),
-        (None, None, Some(through)) => {
-            for pair in through.get_ref().windows(2) {
-                let [before, now] = [pair[0].get_ref().0, pair[1].get_ref().0];
-                if !(now > before) {
-                    let message = format!("through: time {now} does not come after {before}");
-                    return Err(source.error(&pair[1].span(), message));
-                }
-            }
-            let points = through.get_ref().iter().map(|w| (w.get_ref().0, w.get_ref().1)).collect();
-            let path = Path::Through { points };
-            match (through.get_ref().is_empty(), path.at(0.0).0) {
-                (true, _) => {
-                    Err(source.error(&through.span(), "through: a path needs at least one [t, x, y, z]"))
-                }
-                (_, [0.0, 0.0, 0.0]) => Ok(path),
-                (_, start) => Err(source.error(
-                    &through.span(),
-                    format!("through: the displacement at t = 0 is {start:?}; a path starts at [0, 0, 0]"),
-                )),
-            }
-        }
+        (None, None, Some(list)) => through(list, source),
         _ => Err(source.error(at, "[[moving]] needs exactly one of linear, oscillate, through")),
+    }
+}
+
+fn through(list: &Spanned<Vec<Spanned<Vec<f64>>>>, source: &Source<'_>) -> Result<Path, InputError> {
+    let mut points: Vec<(f64, [f64; 3])> = Vec::new();
+    for entry in list.get_ref() {
+        let refuse = |message| source.error(&entry.span(), message);
+        let Waypoint(t, d) = entry.get_ref().as_slice().try_into().map_err(refuse)?;
+        match points.last() {
+            Some((before, _)) if !(t > *before) => {
+                return Err(refuse(format!("through: time {t} does not come after {before}")));
+            }
+            _ => points.push((t, d)),
+        }
+    }
+    if points.is_empty() {
+        return Err(source.error(&list.span(), "through: a path needs at least one [t, x, y, z]"));
+    }
+    let path = Path::Through { points };
+    match path.at(0.0).0 {
+        [0.0, 0.0, 0.0] => Ok(path),
+        start => {
+            let message =
+                format!("through: the displacement at t = 0 is {start:?}; a path starts at [0, 0, 0]");
+            Err(source.error(&list.span(), message))
+        }
     }
 }

@@ -1,11 +1,14 @@
 //! The keys of a scene file, as serde reads them; what they mean stands at the top of the module.
+//!
+//! Elements of long lists stay plain here and are checked by span where they are used: toml would place an error of
+//! ours on the first line of the list.
 
 use std::path::PathBuf;
 
 use ::toml::Spanned;
 use serde::Deserialize;
 
-use super::value::{NotNegative, Positive, Triple, Waypoint};
+use super::value::{NotNegative, Positive, Triple};
 
 /// The whole file.
 #[derive(Debug, Deserialize)]
@@ -68,7 +71,7 @@ pub(super) struct SpringEntry {
 #[serde(deny_unknown_fields)]
 pub(super) struct Mass {
     pub each: Option<Positive>,
-    pub values: Option<Vec<Positive>>,
+    pub values: Option<Vec<Spanned<f64>>>,
     pub total: Option<Positive>,
     pub density: Option<Positive>,
     pub area_density: Option<Positive>,
@@ -96,7 +99,7 @@ pub(super) struct MovingEntry {
     pub particles: Vec<Spanned<usize>>,
     pub linear: Option<Linear>,
     pub oscillate: Option<Oscillate>,
-    pub through: Option<Spanned<Vec<Spanned<Waypoint>>>>,
+    pub through: Option<Spanned<Vec<Spanned<Vec<f64>>>>>,
 }
 
 /// A path of constant velocity.

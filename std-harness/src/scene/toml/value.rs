@@ -18,8 +18,7 @@ pub(super) struct NotNegative(pub f64);
 pub(super) struct Triple(pub [f64; 3]);
 
 /// A time and a displacement.
-#[derive(Debug, Clone, Copy, PartialEq, Deserialize)]
-#[serde(try_from = "Vec<f64>")]
+#[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) struct Waypoint(pub f64, pub [f64; 3]);
 
 impl TryFrom<f64> for Positive {
@@ -55,9 +54,9 @@ impl TryFrom<Vec<f64>> for Triple {
     }
 }
 
-impl TryFrom<Vec<f64>> for Waypoint {
+impl TryFrom<&[f64]> for Waypoint {
     type Error = String;
-    fn try_from(list: Vec<f64>) -> Result<Self, String> {
-        exactly(&list, "[t, x, y, z]").map(|[t, x, y, z]| Self(t, [x, y, z]))
+    fn try_from(list: &[f64]) -> Result<Self, String> {
+        exactly(list, "[t, x, y, z]").map(|[t, x, y, z]| Self(t, [x, y, z]))
     }
 }
