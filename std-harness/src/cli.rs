@@ -147,10 +147,11 @@ fn scenes() -> String {
 pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Command, Result<String, InputError>> {
     let mut arguments: Vec<String> = arguments.into_iter().collect();
     // Options without a command belong to `run`.
-    if let Some(first) = arguments.get(1) {
-        if first.starts_with('-') && !matches!(first.as_str(), "-h" | "--help" | "-V" | "--version") {
-            arguments.insert(1, "run".into());
-        }
+    let is_option = |first: &String| {
+        first.starts_with('-') && !matches!(first.as_str(), "-h" | "--help" | "-V" | "--version")
+    };
+    if arguments.get(1).is_some_and(is_option) {
+        arguments.insert(1, "run".into());
     }
     match Cli::try_parse_from(&arguments) {
         Ok(Cli { command: Some(command) }) => Ok(command),

@@ -62,6 +62,8 @@ fn final_and_json_alone_write_just_those() {
     folder.ok("run cloth:4 --steps 2 --json b.json --final a.csv --out d/e");
     assert!(folder.path("d/e/motion.pvd").exists() && folder.path("d/e/picture.png").exists());
     assert!(!folder.path("out").exists());
+    folder.ok("run cloth:4 --steps 2 --out new --final new/f.csv");
+    assert!(folder.path("new/f.csv").exists());
 }
 
 #[test]
@@ -290,13 +292,21 @@ fn bad_options_and_names_are_refused() {
         ("run cloth:4 --dt NaN", vec!["--dt NaN"]),
         ("run cloth:4 --dt inf", vec!["--dt inf"]),
         ("run cloth:4 --dt 1e-300 --steps 1", vec!["--dt", "range"]),
+        ("run cloth:4 --precision f32 --steps 1 --dt 1e-30", vec!["--dt 1e-30", "range of f32"]),
+        ("run cloth:4 --precision f32 --absolute 1e300", vec!["--absolute 1e300", "range of f32"]),
+        ("run cloth:4 --precision f32 --gravity 0,1e50,0", vec!["--gravity 1e50", "range of f32"]),
+        ("run cloth:4 --precision f32 --mass 1e-60", vec!["particle 0", "1e-60 kg"]),
+        ("run cloth:4 --precision f32 --stiffness 1e50", vec!["spring 0", "1e50 N/m"]),
+        ("run cloth:4 --final same --json same", vec!["same", "--final and --json"]),
         ("run cloth:4 --dt", vec!["--dt"]),
         ("run cloth:4 --seconds -1", vec!["--seconds -1"]),
         ("run cloth:4 --seconds NaN", vec!["--seconds NaN"]),
         ("run cloth:4 --steps 1.5", vec!["1.5", "--steps"]),
         ("run cloth:4 --steps -3", vec!["-3"]),
         ("run cloth:4 --steps 3 --seconds 1", vec!["--steps", "--seconds"]),
-        ("run cloth:4 --steps 99999999999", vec!["steps"]),
+        ("run cloth:4 --steps 99999999999", vec!["9.9999999999e10 steps", "1e9"]),
+        ("run cloth:4 --dt 1e-20", vec!["steps of 1e-20 s"]),
+        ("run cloth:4 --seconds 1e300", vec!["6e301 steps"]),
         ("run cloth:4 --fps 0", vec!["--fps 0"]),
         ("run cloth:4 --tolerance -1", vec!["--tolerance -1"]),
         ("run cloth:4 --tolerance NaN", vec!["--tolerance NaN"]),
