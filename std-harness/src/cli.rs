@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use clap::error::{ContextKind, ContextValue, ErrorKind};
-use clap::{Args, Parser, Subcommand, ValueEnum};
+use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 
 use crate::error::InputError;
 use crate::nearest;
@@ -147,10 +147,11 @@ fn scenes() -> String {
 pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Command, Result<String, InputError>> {
     let mut arguments: Vec<String> = arguments.into_iter().collect();
     // Options without a command belong to `run`.
-    if let Some(first) = arguments.get(1) {
-        if first.starts_with('-') && !matches!(first.as_str(), "-h" | "--help" | "-V" | "--version") {
-            arguments.insert(1, "run".into());
-        }
+    let is_option = |first: &String| {
+        first.starts_with('-') && !matches!(first.as_str(), "-h" | "--help" | "-V" | "--version")
+    };
+    if arguments.get(1).is_some_and(is_option) {
+        arguments.insert(1, "run".into());
     }
     match Cli::try_parse_from(&arguments) {
         Ok(Cli { command: Some(command) }) => Ok(command),
@@ -165,6 +166,18 @@ pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Command, Res
     }
 }
 
+/// The names of all commands.
+fn commands() -> Vec<String> {
+    Cli::command().get_subcommands().map(|command| command.get_name().to_string()).collect()
+}
+
+/// The names of all options, with their dashes. (Clap's own suggestions miss swapped letters in short names.)
+fn options() -> Vec<String> {
+    let cli = Cli::command();
+    let all = cli.get_subcommands().flat_map(|command| command.get_arguments());
+    all.filter_map(|argument| argument.get_long()).map(|long| format!("--{long}")).collect()
+}
+
 /// Clap's message, cut down to one line with the nearest known name.
 fn one_line(error: &clap::Error) -> InputError {
     let get = |kind| match error.get(kind) {
@@ -172,24 +185,22 @@ fn one_line(error: &clap::Error) -> InputError {
         Some(ContextValue::Strings(list)) => Some(list.join(", ")),
         _ => None,
     };
-    let suggestion = |kind| get(kind).map_or(String::new(), |near| format!("; did you mean '{near}'?"));
     let message = match error.kind() {
         ErrorKind::UnknownArgument => {
             let argument = get(ContextKind::InvalidArg).unwrap_or_default();
             if argument.starts_with('-') {
-                format!("unknown option '{argument}'{}", suggestion(ContextKind::SuggestedArg))
+                format!("unknown option '{argument}'{}", nearest::suggestion(&argument, &options()))
             } else {
                 format!("unexpected argument '{argument}'")
             }
         }
         ErrorKind::InvalidSubcommand => {
             let command = get(ContextKind::InvalidSubcommand).unwrap_or_default();
-            let near = suggestion(ContextKind::SuggestedSubcommand);
-            let scene = crate::scene::catalog::named(&command).is_some() || command.contains('.');
-            let hint = if near.is_empty() && scene {
+            let is_scene = crate::scene::catalog::named(&command).is_some() || command.contains('.');
+            let hint = if is_scene {
                 format!("; did you mean 'hooke run {command}'?")
             } else {
-                near
+                nearest::suggestion(&command, &commands())
             };
             format!("unknown command '{command}'{hint}")
         }

@@ -1,5 +1,6 @@
 //! The `hooke` command.
 
+use std::io::Write;
 use std::process::ExitCode;
 
 use hooke_harness::cli::{self, Command};
@@ -8,20 +9,22 @@ use hooke_harness::mesh;
 use hooke_harness::run::{self, RunError};
 
 fn main() -> ExitCode {
-    let command = match cli::parse(std::env::args()) {
-        Ok(command) => command,
-        Err(Ok(text)) => {
-            print!("{text}");
-            return ExitCode::SUCCESS;
+    let arguments: Result<Vec<String>, _> = std::env::args_os().map(|a| a.into_string()).collect();
+    let arguments = match arguments {
+        Ok(arguments) => arguments,
+        Err(argument) => {
+            let message = format!("the argument '{}' is not UTF-8 text", argument.display());
+            return refused(&InputError::new(message));
         }
+    };
+    let command = match cli::parse(arguments) {
+        Ok(command) => command,
+        Err(Ok(text)) => return said(&text),
         Err(Err(error)) => return refused(&error),
     };
     match command {
         Command::Run(args) => match run::run(&args) {
-            Ok(summary) => {
-                print!("{summary}");
-                ExitCode::SUCCESS
-            }
+            Ok(summary) => said(&summary),
             Err(RunError::Input(error)) => refused(&error),
             Err(RunError::Failed(message)) => {
                 eprintln!("hooke: {message}");
@@ -30,19 +33,19 @@ fn main() -> ExitCode {
         },
         Command::Info(args) => match mesh::info(&args.mesh) {
             Ok(info) if args.json => match serde_json::to_string_pretty(&info) {
-                Ok(json) => {
-                    println!("{json}");
-                    ExitCode::SUCCESS
-                }
+                Ok(json) => said(&format!("{json}\n")),
                 Err(error) => refused(&InputError::new(error.to_string())),
             },
-            Ok(info) => {
-                print!("{info}");
-                ExitCode::SUCCESS
-            }
+            Ok(info) => said(&info.to_string()),
             Err(error) => refused(&error),
         },
     }
+}
+
+/// Success. A reader that has seen enough and closed the pipe is no failure (`print!` would panic).
+fn said(text: &str) -> ExitCode {
+    let _ = std::io::stdout().write_all(text.as_bytes());
+    ExitCode::SUCCESS
 }
 
 /// Bad input: one line, exit code 2, nothing written.

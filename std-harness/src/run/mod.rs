@@ -8,6 +8,7 @@ pub mod summary;
 
 use hooke::Real;
 use std::fmt::Display;
+use std::io::Write;
 use std::time::Instant;
 
 use crate::cli::{Precision, RunArgs};
@@ -80,7 +81,8 @@ fn run_in<T: Real + Display>(plan: &Plan) -> Result<String, RunError> {
         None => Ok(text),
         Some(failure) => {
             if !plan.quiet {
-                print!("{text}");
+                // A closed pipe must not hide the failure behind a panic.
+                let _ = std::io::stdout().write_all(text.as_bytes());
             }
             Err(RunError::Failed(failure.to_string()))
         }

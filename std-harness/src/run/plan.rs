@@ -1,7 +1,7 @@
 //! What a run will do, decided and checked before anything is simulated or written: the scene with its overrides, the
 //! step, the method, the outputs. An option wins over the scene file, the scene file over the defaults.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use crate::cli::{Precision, RunArgs};
 use crate::error::InputError;
@@ -86,7 +86,7 @@ impl Plan {
         };
         if steps > MOST_STEPS {
             return Err(InputError::new(format!(
-                "the run would take {steps:e} steps; the most is {MOST_STEPS:e}"
+                "{steps:e} steps of {dt:?} s are too many; the most is {MOST_STEPS:e}"
             )));
         }
         let tolerance = args.tolerance.map(|r| not_negative("--tolerance", r)).transpose()?;
@@ -115,10 +115,19 @@ impl Plan {
 
     /// Makes sure that every output can be written, before the first step.
     pub fn prepare_outputs(&self) -> Result<(), InputError> {
-        for file in [&self.final_csv, &self.json].into_iter().flatten() {
-            safe::prepare_file(file)?;
+        let files: Vec<&Path> = [&self.final_csv, &self.json].into_iter().flatten().map(|f| &**f).collect();
+        if let [a, b] = files[..]
+            && a == b
+        {
+            return Err(InputError::in_file(a, "--final and --json name the same file"));
         }
-        self.out.as_deref().map_or(Ok(()), safe::prepare_dir)
+        // A file may lie in the folder that --out is about to make; everything else is checked before it is made.
+        let dir = self.out.as_deref();
+        let (inside, beside): (Vec<&Path>, Vec<&Path>) =
+            files.into_iter().partition(|file| dir.is_some() && file.parent() == dir);
+        beside.into_iter().try_for_each(safe::prepare_file)?;
+        dir.map_or(Ok(()), safe::prepare_dir)?;
+        inside.into_iter().try_for_each(safe::prepare_file)
     }
 
     /// Is there a frame after this step?

@@ -43,11 +43,45 @@ pub struct Simulation<T: Real> {
     dt: f64,
 }
 
+/// What f64 can hold and `T` cannot, by the name of the option that says it.
+fn in_range<T: Real>(plan: &Plan) -> Result<(), InputError> {
+    let refuse = |name: &str, x: f64| {
+        let bits = size_of::<T>() * 8;
+        Err(InputError::new(format!("{name} {x:?}: outside the range of f{bits}")))
+    };
+    // A step multiplies with h², which must not vanish or overflow either.
+    let h = T::from_f64(plan.dt);
+    if !(h * h > T::ZERO && (h * h).is_finite()) {
+        return refuse("--dt", plan.dt);
+    }
+    let [x, y, z] = plan.model.gravity;
+    let tolerance = plan.tolerance.unwrap_or(0.0);
+    for (name, value) in [
+        ("--gravity", x),
+        ("--gravity", y),
+        ("--gravity", z),
+        ("--tolerance", tolerance),
+        ("--absolute", plan.absolute),
+        ("drag", plan.model.drag),
+    ] {
+        if !T::from_f64(value).is_finite() {
+            return refuse(name, value);
+        }
+    }
+    for (j, spring) in plan.model.springs.iter().enumerate() {
+        if !T::from_f64(spring.damping).is_finite() {
+            return refuse(&format!("spring {j}: damping"), spring.damping);
+        }
+    }
+    Ok(())
+}
+
 impl<T: Real + Display> Simulation<T> {
     /// Builds the scene and the integrator; what the kernel refuses is bad input.
     pub fn new(plan: &Plan) -> Result<Self, InputError> {
         let model = &plan.model;
         let real = T::from_f64;
+        in_range::<T>(plan)?;
         let dampings = Dampings(model.springs.iter().map(|spring| real(spring.damping)).collect());
         let mut euler = LinearlyImplicitEuler::new(real(plan.dt))
             .with(Gravity(model.gravity.map(real)))
@@ -66,10 +100,6 @@ impl<T: Real + Display> Simulation<T> {
             .forces
             .check(model.mass.len(), model.springs.len())
             .map_err(|e| InputError::new(e.to_string()))?;
-        let h = real(plan.dt);
-        if !(h * h > T::ZERO && (h * h).is_finite()) {
-            return Err(InputError::new(format!("--dt {}: outside the range of the precision", plan.dt)));
-        }
         let origin = model.position.clone();
         Ok(Self { scene, euler, moving: model.moving.clone(), origin, motion: Vec::new(), dt: plan.dt })
     }

@@ -2,6 +2,7 @@
 
 use super::Model;
 use crate::error::InputError;
+use crate::nearest;
 
 /// Names with their forms, for help and suggestions.
 pub const NAMES: [(&str, &str, &str); 8] = [
@@ -39,6 +40,18 @@ pub fn named(scene: &str) -> Option<Result<Model, InputError>> {
         _ => return None,
     };
     Some(model)
+}
+
+/// The error for a name that is none of the catalogue's.
+pub fn unknown(scene: &str) -> InputError {
+    let name = scene.split(':').next().unwrap_or(scene);
+    let names: Vec<&str> = NAMES.iter().map(|known| known.0).collect();
+    let forms: Vec<&str> = NAMES.iter().map(|known| known.1).collect();
+    InputError::new(format!(
+        "unknown scene '{scene}'{}; it is neither a file nor one of {}",
+        nearest::suggestion(name, &names),
+        forms.join(", ")
+    ))
 }
 
 /// The sizes after the colon, each at least `least`, their product within [`MOST`].

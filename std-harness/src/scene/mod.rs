@@ -5,6 +5,7 @@ pub mod from_mesh;
 pub mod motion;
 pub mod pins;
 pub mod source;
+pub mod toml;
 
 pub use motion::{Moving, Path};
 pub use pins::PinRule;
@@ -105,7 +106,7 @@ impl Model {
         for (x, m) in self.position.iter().zip(&self.mass) {
             scene.particle(x.map(real), real(*m)).map_err(|e| {
                 let value =
-                    if matches!(e, EditError::Mass(_)) { format!("{m} kg") } else { format!("{x:?}") };
+                    if matches!(e, EditError::Mass(_)) { format!("{m:?} kg") } else { format!("{x:?}") };
                 refuse(e, value)
             })?;
         }
@@ -115,8 +116,8 @@ impl Model {
             let added = if s.cable { scene.cable(a, b, spring) } else { scene.spring_with(a, b, spring) };
             added.map_err(|e| {
                 let value = match e {
-                    EditError::Stiffness(_) => format!("{} N/m", s.stiffness),
-                    EditError::RestLength(_) => format!("{} m", s.rest_length),
+                    EditError::Stiffness(_) => format!("{:?} N/m", s.stiffness),
+                    EditError::RestLength(_) => format!("{:?} m", s.rest_length),
                     _ => format!("from {a} to {b}"),
                 };
                 refuse(e, value)

@@ -3,9 +3,9 @@
 
 use std::path::{Path, PathBuf};
 
-use super::{Model, catalog, from_mesh};
+use super::{Model, catalog, from_mesh, toml};
 use crate::error::InputError;
-use crate::{mesh, nearest};
+use crate::mesh;
 
 /// A scene, and the outputs that its file asks for.
 #[derive(Debug, Clone)]
@@ -43,14 +43,10 @@ pub fn load(scene: &str) -> Result<Loaded, InputError> {
     let path = Path::new(scene);
     let looks_like_a_file = path.extension().is_some() || scene.contains(['/', '\\']) || path.exists();
     if !looks_like_a_file {
-        let name = scene.split(':').next().unwrap_or(scene);
-        let names: Vec<&str> = catalog::NAMES.iter().map(|known| known.0).collect();
-        let forms: Vec<&str> = catalog::NAMES.iter().map(|known| known.1).collect();
-        let near = nearest::suggestion(name, &names);
-        return Err(InputError::new(format!(
-            "unknown scene '{scene}'{near}; it is neither a file nor one of {}",
-            forms.join(", ")
-        )));
+        return Err(catalog::unknown(scene));
+    }
+    if path.extension().is_some_and(|x| x.eq_ignore_ascii_case("toml")) {
+        return toml::load(scene, path);
     }
     Ok(from_mesh::model(scene, &mesh::load(path)?).into())
 }
