@@ -1,0 +1,22 @@
+//! Exact identities: each test is named as a statement. Most compare bits; where rounding enters, the allowed error is in
+//! `allowed.rs` with its derivation.
+
+mod cables;
+mod catenary;
+mod coincident;
+mod counters;
+mod damping;
+mod edits;
+mod energy;
+mod errors;
+mod islands;
+mod matrices;
+mod memory;
+mod modes;
+mod momentum;
+mod one_spring;
+mod pins;
+mod rest;
+mod scalings;
+mod snapshots;
+mod stiffness;

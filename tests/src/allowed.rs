@@ -1,0 +1,41 @@
+//! All allowed errors, one table. Exact identities use none of them. u is the unit roundoff, 2⁻⁵³ or 2⁻²⁴.
+//!
+//! *Derived* means: a bound that follows from the operations counted in the reason. *Measured* means: the largest value
+//! seen on these tests' data, with the margin said.
+
+/// Unit roundoff of `f64`.
+pub const U64: f64 = f64::EPSILON / 2.0;
+/// Unit roundoff of `f32`.
+pub const U32: f64 = f32::EPSILON as f64 / 2.0;
+
+/// Axial stiffness k of one spring, units of u·k: α and w² lose 4u and 8u, their sum one more (derived).
+pub const SPRING_STIFFNESS: f64 = 16.0;
+/// Energy ratio of the one-spring scene, units of u·l₀/amplitude: l − l₀ loses 2u·l₀ absolutely, as do x⁺ and v⁺ (each once
+/// rounded, |x| ≤ 1.5 l₀); A is off by 13u; energy is quadratic, which doubles all (derived: below 60).
+pub const SPRING_ENERGY: f64 = 60.0;
+/// Eigenvalues by the QR method, units of n·u·‖K‖: Higham's γ-type constant, backward stable (derived up to that constant).
+pub const EIGENVALUE: f64 = 10.0;
+/// Eigenvalues of one 6×6, units of u·k(1 + l₀/l): compression costs 13u in norm √(6·6), the QR method about 6·10u (derived).
+pub const EIGENVALUE_6: f64 = 140.0;
+/// Energy ratio of one mode, units of N·u/amplitude (masses 1 m apart): each of the N springs loses 2u·l, positions up to
+/// N m are rounded to u·N, the solve ends at its floor of some 20u per row (derived: below 100).
+pub const MODE_ENERGY: f64 = 100.0;
+/// Residual force of the catenary, units of u·k·(its length): positions are off by u each, sums of them in making the scene
+/// by 24u at most, l by 3u; two springs meet (derived: below 64).
+pub const CATENARY: f64 = 64.0;
+/// Energy of rotated positions, units of u·Σk·(1 m)² with lengths and rest lengths below 4 m: a rotation is off by 6u·|x|
+/// for both ends, V changes by k|l − l₀|·that (derived: below 100).
+pub const ROTATED_ENERGY: f64 = 100.0;
+/// One component of a particle's force against a precise derivative, units of u·Σ k(l + l₀): l 3u, u 4u, tension and product
+/// 2u, the sum over at most 20 springs 20u (derived).
+pub const SPRING_FORCE: f64 = 32.0;
+/// Energies, units of u·(T + Σ k·4 max(l₀, 1)²): 8u per term and 20u for the sum (derived).
+pub const ENERGY: f64 = 32.0;
+/// A row of a force or stiffness product against dense matrices, units of u·Σ k(l + l₀)(1 + l₀/l): 13u from compression, as
+/// much from the textbook formula, and both sums of up to 60 terms (derived).
+pub const DENSE_ROW: f64 = 150.0;
+/// One entry of αI + wwᵀ against the textbook formula, units of u·k(1 + l₀/l): w² 9u, α 5u, one sum; the formula as much
+/// (derived).
+pub const COMPRESSED_HESSIAN: f64 = 32.0;
+/// K(ω×x) − ω×f, units of u·Σ k(1 + l₀/l)|ω||x|: 16u for H times a difference, 8u for ω×f, sums of 20 (derived).
+pub const ROTATED_FORCE: f64 = 64.0;
