@@ -9,6 +9,7 @@ mod damping;
 mod edits;
 mod energy;
 mod errors;
+mod extremes;
 mod islands;
 mod matrices;
 mod memory;

@@ -39,3 +39,12 @@ pub const DENSE_ROW: f64 = 150.0;
 pub const COMPRESSED_HESSIAN: f64 = 32.0;
 /// K(ω×x) − ω×f, units of u·Σ k(1 + l₀/l)|ω||x|: 16u for H times a difference, 8u for ω×f, sums of 20 (derived).
 pub const ROTATED_FORCE: f64 = 64.0;
+/// Ten tight steps of a gentle scene in a turned, shifted or relabelled frame, m. Measured: below 3e-14 m; ten times that
+/// allowed.
+pub const EQUIVARIANT_TRAJECTORY: f64 = 3e-13;
+/// Momentum of a free island of 12 particles over one step, units of u·(Σm|v| before and after + Σ impulses of the springs).
+/// Measured; the sum of all rows loses a few u of what passes through it.
+pub const MOMENTUM: f64 = 64.0;
+/// Velocity after one step of drag, units of u·|v|: m(1 + hd) 3u, the right side 3u, one division and one PCG step 6u, v + Δ
+/// one more; |Δ| ≤ |v| (derived).
+pub const DRAG: f64 = 16.0;
