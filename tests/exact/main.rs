@@ -1,6 +1,9 @@
 //! Exact identities: each test is named as a statement. Most compare bits; where rounding enters, the allowed error is in
 //! `allowed.rs` with its derivation.
 
+// Indices are those of the formulas.
+#![allow(clippy::needless_range_loop)]
+
 mod cables;
 mod catenary;
 mod coincident;

@@ -196,6 +196,7 @@ fn equivariant(x: impl Fn([f64; 3]) -> [f64; 3] + Copy, v: impl Fn([f64; 3]) -> 
     let position: Vec<[f64; 3]> = position.into_iter().map(x).collect();
     let velocity: Vec<[f64; 3]> = velocity.into_iter().map(v).collect();
     let off = build::farthest(&position, &moved);
+    println!("{off:.1e} m off");
     assert!(off <= allowed::EQUIVARIANT_TRAJECTORY, "{off:e} m");
     let off = build::farthest(&velocity, &moving);
     assert!(off <= 64.0 * allowed::EQUIVARIANT_TRAJECTORY, "{off:e} m/s");

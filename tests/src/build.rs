@@ -112,3 +112,18 @@ pub fn farthest(a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
         .map(|(a, b)| crate::data::distance(*a, *b))
         .fold(0.0, |m, d| if d > m || d.is_nan() { d } else { m })
 }
+
+/// Σ over springs of the impulses that pass through both their ends in a step: h|tension| + |H Δq̇|, with
+/// |H| ≤ h²k(1 + l₀/l) + hc. What the rounding of momentum is relative to.
+pub fn impulses<T: Real>(scene: &VecScene<T>, h: f64, damping: f64) -> f64 {
+    let (state, springs) = (scene.state(), scene.springs());
+    let velocity = velocities(scene);
+    let one = |j: usize| {
+        let Some((a, b)) = state.ends(j) else { return 0.0 };
+        let (k, l0) = (state.spring(j).stiffness.to_f64(), state.spring(j).rest_length.to_f64());
+        let l = springs.length_of(j).map_or(0.0, Real::to_f64);
+        let stiffness = h * h * k * (1.0 + l0 / l) + h * damping;
+        h * springs.tension_of(j).to_f64().abs() + stiffness * crate::data::distance(velocity[a], velocity[b])
+    };
+    (0..state.springs()).map(one).sum()
+}
