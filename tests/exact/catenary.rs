@@ -76,3 +76,31 @@ fn reaction_of_a_particle_that_does_not_exist_is_none() {
     let scene = build::scene::<f64>(&catenary());
     assert_eq!(scene.reaction(SPRINGS + 1, &()), None);
 }
+
+#[test]
+fn a_reaction_is_minus_all_forces_on_the_pin_damping_and_loads_included() {
+    // A damped spring along x, stretched by ½ m and growing by 2 m/s: tension k/2, damping 2c; both pull the pin to +x.
+    let (k, c, load) = (8.0, 4.0, [1.0, 2.0, 3.0]);
+    for swapped in [false, true] {
+        let mut data = SceneData::default();
+        data.particle([0.0; 3], 0.5);
+        data.particle([1.5, 0.0, 0.0], 1.0);
+        data.pinned[0] = true;
+        data.velocity[1] = [2.0, 5.0, 0.0];
+        if swapped {
+            data.spring_with(1, 0, k, 1.0)
+        } else {
+            data.spring_with(0, 1, k, 1.0)
+        }
+        let scene = build::scene::<f64>(&data);
+        let forces = (
+            (Gravity([0.0, -10.0, 0.0]), hooke::SpringDamping(c)),
+            hooke::PointForce { particle: 0, force: load },
+        );
+        let reaction = scene.reaction(0, &forces).unwrap();
+        let expected = [-(k * 0.5 + c * 2.0) - load[0], 0.5 * 10.0 - load[1], -load[2]];
+        for (r, expected) in reaction.iter().zip(expected) {
+            assert!((r - expected).abs() <= 8.0 * allowed::U64 * 16.0, "{reaction:?}");
+        }
+    }
+}

@@ -146,6 +146,19 @@ fn a_full_scene_refuses_more_names_its_capacity_and_goes_on() {
 }
 
 #[test]
+fn full_borrowed_buffers_refuse_more_and_go_on() {
+    let (reals, words) = hooke::SceneIn::<f64>::needs(2, 1);
+    let (mut reals, mut words) = (vec![0.0; reals], vec![0; words]);
+    let mut full = hooke::SceneIn::<f64>::in_buffers(&mut reals, &mut words, 2, 1).unwrap();
+    full.particle([0.0; 3], 1.0).unwrap();
+    full.particle([1.0, 0.0, 0.0], 1.0).unwrap();
+    full.spring(0, 1, 10.0).unwrap();
+    assert_eq!(full.particle([2.0, 0.0, 0.0], 1.0), Err(EditError::ParticlesFull(2)));
+    assert_eq!(full.spring_with(0, 1, SPRING), Err(EditError::SpringsFull(1)));
+    full.step(&mut LinearlyImplicitEuler::new(0.01)).unwrap();
+}
+
+#[test]
 fn a_snapshot_that_does_not_fit_is_refused_without_change() {
     let small = {
         let mut small = Scene::<f64, 2, 1>::new();

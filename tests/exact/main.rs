@@ -21,6 +21,7 @@ mod momentum;
 mod one_spring;
 mod pins;
 mod rest;
+mod same_bits;
 mod scalings;
 mod snapshots;
 mod stiffness;
