@@ -23,7 +23,8 @@ struct Case {
 }
 
 fn case(random: &mut Random) -> Case {
-    let n = 2 + random.below(5);
+    // Mostly small; one in a hundred has up to 72 unknowns, which CG does not finish in a few iterations.
+    let n = if random.chance(0.01) { 24 } else { 2 + random.below(5) };
     let mut chance = |p| random.chance(p);
     let with = Ingredients {
         pins: chance(0.5),
