@@ -103,3 +103,17 @@ fn the_report_is_the_sum_of_its_islands() {
     assert_eq!(report.clamped, 2, "the last spring is at its rest length");
     assert_eq!(report.untouched, 1);
 }
+
+#[test]
+fn one_free_particle_on_many_springs_is_solved_in_one_iteration() {
+    // Its diagonal block is all of A, so block Jacobi is exact.
+    let mut scene = VecScene::<f64>::empty();
+    let i = scene.particle([0.1, 0.2, 0.3], 1.0).unwrap();
+    for x in [[1.0, 0.0, 0.0], [0.0, 2.0, 0.5], [-1.0, -1.0, 1.0], [0.5, 0.0, -3.0]] {
+        let pin = scene.particle(x, 1.0).unwrap();
+        scene.pin(pin).unwrap();
+        scene.spring_with(i, pin, Spring { stiffness: 1e3, rest_length: 0.5 }).unwrap();
+    }
+    let report = scene.step(&mut LinearlyImplicitEuler::new(0.1).tolerance(1e-8)).unwrap();
+    assert_eq!(report.iterations, 1);
+}

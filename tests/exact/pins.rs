@@ -123,3 +123,15 @@ fn pinning_twice_is_pinning_once() {
     assert_eq!(once.step(&mut euler), twice.step(&mut euler));
     assert_eq!(build::bits(&once), build::bits(&twice));
 }
+
+#[test]
+fn a_particle_that_is_pinned_stops_at_once_and_rests_when_released() {
+    let mut scene = hooke_tests::vec_memory::VecScene::<f64>::empty();
+    let i = scene.particle([1.0, 2.0, 3.0], 1.0).unwrap();
+    scene.set_velocity(i, [4.0, 5.0, 6.0]).unwrap();
+    scene.pin(i).unwrap();
+    assert_eq!(scene.velocities()[i], [0.0; 3]);
+    scene.release(i).unwrap();
+    scene.step(&mut LinearlyImplicitEuler::new(0.5)).unwrap();
+    assert_eq!((scene.positions()[i], scene.velocities()[i]), ([1.0, 2.0, 3.0], [0.0; 3]));
+}
