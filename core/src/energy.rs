@@ -60,7 +60,8 @@ impl<T: Real, L: Law> Energies<'_, T, L> {
         }
     }
 
-    fn loaded(&self, j: usize) -> Option<(Spring<T>, Stretched<T>)> {
+    /// The constants and the stretch of a spring that carries: neither broken nor slack.
+    pub(crate) fn loaded(&self, j: usize) -> Option<(Spring<T>, Stretched<T>)> {
         let ends = self.state.live(j)?;
         let spring = self.state.spring(j);
         let stretched = self.stretched(ends);

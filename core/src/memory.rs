@@ -21,7 +21,8 @@ pub trait List<X: Copy>: Deref<Target = [X]> + DerefMut {
     fn room(&self) -> usize;
 }
 
-/// An owner of a scene's lists: one family for what belongs to particles, one for what belongs to springs.
+/// An owner of a scene's lists: one family for what belongs to particles, one for what belongs to springs. All lists of
+/// a family must have the same room: a scene fills them side by side.
 pub trait Memory {
     /// The precision.
     type Real: Real;

@@ -119,7 +119,10 @@ fn cut_flat<'a, X>(buffer: &mut &'a mut [X], n: usize) -> Option<SliceList<'a, X
 impl<'a, T: Real, L: crate::Law> SceneIn<'a, T, L> {
     /// How many numbers and words [`SceneIn::in_buffers`] needs for so many particles and springs.
     pub const fn needs(particles: usize, springs: usize) -> (usize, usize) {
-        (30 * particles + 6 * springs, 7 * particles + 5 * springs)
+        (
+            particles.saturating_mul(30).saturating_add(springs.saturating_mul(6)),
+            particles.saturating_mul(7).saturating_add(springs.saturating_mul(5)),
+        )
     }
 
     /// An empty scene for up to so many particles and springs, in borrowed buffers; `None` if they are too small.

@@ -47,19 +47,18 @@ impl<T: Real, L: Law> Energies<'_, T, L> {
 
     /// H = αI + w wᵀ of a spring, N/m: 0 for a slack cable; `None` if it is broken or out of range.
     pub fn hessian_of(&self, spring: usize) -> Option<Hessian<T>> {
-        let ends = self.state.live(spring)?;
-        let constants = self.state.spring(spring);
-        let stretched = Stretched::new(self.state.delta(ends));
-        if L::slackens(ends.cable) && stretched.length < constants.rest_length {
-            return Some(Hessian { alpha: T::ZERO, w: [T::ZERO; 3] });
-        }
-        Some(Hessian::new(constants, stretched, T::ZERO, Scaling::unit()))
+        self.state.live(spring)?;
+        Some(match self.loaded(spring) {
+            Some((spring, stretched)) => Hessian::new(spring, stretched, T::ZERO, Scaling::unit()),
+            None => Hessian { alpha: T::ZERO, w: [T::ZERO; 3] },
+        })
     }
 
+    /// The springs that carry: neither broken nor slack.
     fn each_hessian(&self, mut visit: impl FnMut(Ends, Hessian<T>)) {
         for j in 0..self.state.springs() {
-            if let (Some(ends), Some(h)) = (self.state.live(j), self.hessian_of(j)) {
-                visit(ends, h);
+            if let (Some(ends), Some((spring, stretched))) = (self.state.live(j), self.loaded(j)) {
+                visit(ends, Hessian::new(spring, stretched, T::ZERO, Scaling::unit()));
             }
         }
     }

@@ -1,0 +1,265 @@
+//! Every error, with the index it names; and the state as it was, bit for bit.
+
+use hooke::{
+    Drag, EditError, Gravity, LinearlyImplicitEuler, Motion, PointForce, PointSpring, Scene, Snapshot,
+    Spring, SpringDamping, StepError,
+};
+use hooke_tests::build;
+use hooke_tests::vec_memory::VecScene;
+
+const SPRING: Spring<f64> = Spring { stiffness: 10.0, rest_length: 1.0 };
+
+/// Three particles, the first pinned, two springs, the second broken; in motion.
+fn scene() -> VecScene<f64> {
+    let mut scene = VecScene::<f64>::empty();
+    for x in 0..3 {
+        scene.particle([f64::from(x), 0.0, 0.0], 1.0).unwrap();
+    }
+    scene.spring(0, 1, 10.0).unwrap();
+    scene.spring(1, 2, 10.0).unwrap();
+    scene.pin(0).unwrap();
+    scene.break_spring(1).unwrap();
+    scene.set_velocity(1, [0.1, 0.2, 0.3]).unwrap();
+    scene
+}
+
+type Seen = (Vec<[u64; 6]>, Vec<u64>, Vec<(u64, u64)>, Vec<Option<(usize, usize)>>, Vec<bool>);
+
+/// All that an edit can change.
+fn seen(scene: &VecScene<f64>) -> Seen {
+    let state = scene.state();
+    let constants = |j| {
+        let Spring { stiffness, rest_length } = state.spring(j);
+        (stiffness.to_bits(), rest_length.to_bits())
+    };
+    (
+        build::bits(scene),
+        state.mass.iter().map(|m| m.to_bits()).collect(),
+        (0..state.springs()).map(constants).collect(),
+        (0..state.springs()).map(|j| state.ends(j)).collect(),
+        (0..state.mass.len()).map(|i| state.is_pinned(i)).collect(),
+    )
+}
+
+/// The edit is refused with this error, and nothing has changed, nor does what follows.
+fn refused<X: core::fmt::Debug>(
+    edit: impl Fn(&mut VecScene<f64>) -> Result<X, EditError>,
+    expected: EditError,
+) {
+    let (mut tried, mut untouched) = (scene(), scene());
+    let error = edit(&mut tried).expect_err("the edit is to be refused");
+    assert_eq!(error, expected);
+    assert!(!error.to_string().is_empty());
+    assert_eq!(seen(&tried), seen(&untouched));
+    let mut euler = LinearlyImplicitEuler::new(0.01).gravity([0.0, -9.81, 0.0]);
+    assert_eq!(tried.step(&mut euler), untouched.step(&mut euler));
+    assert_eq!(seen(&tried), seen(&untouched));
+}
+
+const BAD: [f64; 3] = [f64::NAN, f64::INFINITY, f64::NEG_INFINITY];
+
+#[test]
+fn particles_that_do_not_exist_are_named() {
+    refused(|s| s.spring(0, 3, 1.0), EditError::NoParticle(3));
+    refused(|s| s.spring(7, 1, 1.0), EditError::NoParticle(7));
+    refused(|s| s.spring_with(0, 9, SPRING), EditError::NoParticle(9));
+    refused(|s| s.pin(3), EditError::NoParticle(3));
+    refused(|s| s.release(4), EditError::NoParticle(4));
+    refused(|s| s.set_mass(5, 1.0), EditError::NoParticle(5));
+    refused(|s| s.set_position(6, [0.0; 3]), EditError::NoParticle(6));
+    refused(|s| s.set_velocity(7, [0.0; 3]), EditError::NoParticle(7));
+    refused(|s| s.impulse(usize::MAX, [0.0; 3]), EditError::NoParticle(usize::MAX));
+}
+
+#[test]
+fn springs_that_do_not_exist_or_are_broken_are_named() {
+    refused(|s| s.break_spring(2), EditError::NoSpring(2));
+    refused(|s| s.set_stiffness(3, 1.0), EditError::NoSpring(3));
+    refused(|s| s.set_rest_length(4, 1.0), EditError::NoSpring(4));
+    refused(|s| s.break_spring(1), EditError::Broken(1));
+    refused(|s| s.set_stiffness(1, 1.0), EditError::Broken(1));
+    refused(|s| s.set_rest_length(1, 1.0), EditError::Broken(1));
+}
+
+#[test]
+fn a_spring_from_a_particle_to_itself_is_refused() {
+    refused(|s| s.spring(1, 1, 1.0), EditError::SameEnds(2));
+    refused(|s| s.spring_with(2, 2, SPRING), EditError::SameEnds(2));
+}
+
+#[test]
+fn values_that_are_not_finite_are_refused_in_every_component() {
+    for bad in BAD {
+        for d in 0..3 {
+            let mut x = [1.0; 3];
+            x[d] = bad;
+            refused(|s| s.particle(x, 1.0), EditError::NotFinite(3));
+            refused(|s| s.set_position(2, x), EditError::NotFinite(2));
+            refused(|s| s.set_velocity(1, x), EditError::NotFinite(1));
+            refused(|s| s.impulse(1, x), EditError::NotFinite(1));
+        }
+    }
+    refused(
+        |s| {
+            s.impulse(2, [f64::MAX, 0.0, 0.0])?;
+            s.set_velocity(2, [0.0; 3])?;
+            s.set_mass(2, 1.0)?;
+            s.impulse(2, [f64::INFINITY, 0.0, 0.0])
+        },
+        EditError::NotFinite(2),
+    );
+}
+
+#[test]
+fn masses_stiffnesses_and_rest_lengths_out_of_range_are_refused() {
+    for bad in BAD.into_iter().chain([-1.0]) {
+        refused(|s| s.particle([0.0; 3], bad), EditError::Mass(3));
+        refused(|s| s.set_mass(1, bad), EditError::Mass(1));
+        refused(|s| s.spring(0, 2, bad), EditError::Stiffness(2));
+        refused(|s| s.set_stiffness(0, bad), EditError::Stiffness(0));
+        refused(|s| s.set_rest_length(0, bad), EditError::RestLength(0));
+        refused(|s| s.spring_with(0, 2, Spring { rest_length: bad, ..SPRING }), EditError::RestLength(2));
+    }
+    refused(|s| s.set_mass(2, 0.0), EditError::Mass(2));
+    assert_eq!(scene().set_stiffness(0, 0.0), Ok(()), "k = 0 and l₀ = 0 are allowed");
+    assert_eq!(scene().set_rest_length(0, 0.0), Ok(()));
+}
+
+#[test]
+fn pins_have_no_velocity_of_their_own_and_only_pins_are_released() {
+    refused(|s| s.set_velocity(0, [1.0; 3]), EditError::Pinned(0));
+    refused(|s| s.impulse(0, [1.0; 3]), EditError::Pinned(0));
+    refused(|s| s.release(2), EditError::NotPinned(2));
+}
+
+#[test]
+fn a_full_scene_refuses_more_names_its_capacity_and_goes_on() {
+    let mut full = Scene::<f64, 2, 1>::new();
+    full.particle([0.0; 3], 1.0).unwrap();
+    full.particle([1.0, 0.0, 0.0], 1.0).unwrap();
+    full.spring(0, 1, 10.0).unwrap();
+    full.set_velocity(1, [1.0, 0.0, 0.0]).unwrap();
+    assert_eq!(full.particle([2.0, 0.0, 0.0], 1.0), Err(EditError::ParticlesFull(2)));
+    assert_eq!(full.spring(1, 0, 10.0), Err(EditError::SpringsFull(1)));
+    assert_eq!((full.positions().len(), full.state().springs()), (2, 1));
+    full.step(&mut LinearlyImplicitEuler::new(0.01)).unwrap();
+}
+
+#[test]
+fn full_borrowed_buffers_refuse_more_and_go_on() {
+    let (reals, words) = hooke::SceneIn::<f64>::needs(2, 1);
+    let (mut reals, mut words) = (vec![0.0; reals], vec![0; words]);
+    let mut full = hooke::SceneIn::<f64>::in_buffers(&mut reals, &mut words, 2, 1).unwrap();
+    full.particle([0.0; 3], 1.0).unwrap();
+    full.particle([1.0, 0.0, 0.0], 1.0).unwrap();
+    full.spring(0, 1, 10.0).unwrap();
+    assert_eq!(full.particle([2.0, 0.0, 0.0], 1.0), Err(EditError::ParticlesFull(2)));
+    assert_eq!(full.spring_with(0, 1, SPRING), Err(EditError::SpringsFull(1)));
+    full.step(&mut LinearlyImplicitEuler::new(0.01)).unwrap();
+}
+
+#[test]
+fn a_snapshot_that_does_not_fit_is_refused_without_change() {
+    let small = {
+        let mut small = Scene::<f64, 2, 1>::new();
+        small.particle([0.0; 3], 1.0).unwrap();
+        small
+    };
+    let big = scene();
+    let mut too_small = Snapshot::<hooke::Fixed<f64, 2, 1>>::new();
+    small.save(&mut too_small).unwrap();
+    assert_eq!(big.save(&mut too_small), Err(EditError::Snapshot(3)));
+    let mut again = Scene::<f64, 4, 4>::new();
+    again.restore(&too_small).unwrap();
+    assert_eq!(build::bits(&again), build::bits(&small), "the refused save left the snapshot alone");
+    let mut saved = Snapshot::<hooke::Fixed<f64, 8, 8>>::new();
+    big.save(&mut saved).unwrap();
+    let mut small = small;
+    let before = build::bits(&small);
+    assert_eq!(small.restore(&saved), Err(EditError::Snapshot(3)));
+    assert_eq!(build::bits(&small), before);
+    // Enough particles, too few springs.
+    let mut few_springs = Scene::<f64, 8, 1>::new();
+    assert_eq!(few_springs.restore(&saved), Err(EditError::Snapshot(3)));
+}
+
+/// The step is refused with this error and nothing has changed.
+macro_rules! fails {
+    ($euler:expr, $motion:expr, $expected:expr) => {{
+        let (mut tried, untouched) = (scene(), scene());
+        let error = tried.step_moving(&mut $euler, $motion).expect_err("the step is to fail");
+        assert_eq!(error, $expected);
+        assert!(!error.to_string().is_empty());
+        assert_eq!(seen(&tried), seen(&untouched));
+    }};
+}
+
+#[test]
+fn a_time_step_that_is_none_is_refused() {
+    for dt in BAD.into_iter().chain([0.0, -0.01, 1e-200, 1e200]) {
+        fails!(LinearlyImplicitEuler::new(dt), &[], StepError::TimeStep);
+    }
+}
+
+#[test]
+fn a_tolerance_that_is_none_is_refused() {
+    for bad in BAD.into_iter().chain([-1.0]) {
+        fails!(LinearlyImplicitEuler::new(0.01).tolerance(bad), &[], StepError::Tolerance);
+        fails!(LinearlyImplicitEuler::new(0.01).absolute(bad), &[], StepError::Tolerance);
+    }
+}
+
+#[test]
+fn forces_with_bad_values_are_refused_and_named() {
+    let euler = || LinearlyImplicitEuler::new(0.01);
+    for bad in BAD {
+        fails!(euler().with(Gravity([0.0, bad, 0.0])), &[], StepError::Force(0));
+        fails!(euler().with(PointForce { particle: 2, force: [0.0, 0.0, bad] }), &[], StepError::Force(2));
+        fails!(euler().with(PointSpring::new(1, [bad, 0.0, 0.0], 1.0)), &[], StepError::Force(1));
+    }
+    for bad in BAD.into_iter().chain([-1.0]) {
+        fails!(euler().with(Drag(bad)), &[], StepError::Force(0));
+        fails!(euler().with(SpringDamping(bad)), &[], StepError::Force(0));
+        fails!(euler().with(SpringDamping([0.0, bad].as_slice())), &[], StepError::Force(1));
+        fails!(euler().with(PointSpring::new(2, [0.0; 3], bad)), &[], StepError::Force(2));
+        fails!(euler().with(PointSpring::new(2, [0.0; 3], 1.0).rest_length(bad)), &[], StepError::Force(2));
+    }
+    // Also behind others, and in a slice.
+    let mut many =
+        [PointForce { particle: 0, force: [0.0; 3] }, PointForce { particle: 1, force: [f64::NAN; 3] }];
+    fails!(euler().gravity([0.0; 3]).with(many.as_mut_slice()), &[], StepError::Force(1));
+}
+
+#[test]
+fn forces_on_particles_that_do_not_exist_are_refused_and_named() {
+    let euler = || LinearlyImplicitEuler::new(0.01);
+    fails!(euler().with(PointForce { particle: 3, force: [0.0; 3] }), &[], StepError::NoParticle(3));
+    fails!(euler().with(PointSpring::new(9, [0.0; 3], 1.0)), &[], StepError::NoParticle(9));
+}
+
+#[test]
+fn motions_of_particles_that_are_not_pinned_or_bad_are_refused_and_named() {
+    let motion = |particle, position| Motion { particle, position, velocity: [0.0; 3] };
+    fails!(LinearlyImplicitEuler::new(0.01), &[motion(2, [0.0; 3])], StepError::NotPinned(2));
+    fails!(LinearlyImplicitEuler::new(0.01), &[motion(5, [0.0; 3])], StepError::NotPinned(5));
+    for bad in BAD.into_iter().chain([f64::MAX]) {
+        fails!(LinearlyImplicitEuler::new(0.01), &[motion(0, [0.0, bad, 0.0])], StepError::Motion(0));
+    }
+    let fast = Motion { particle: 0, position: [0.0; 3], velocity: [f64::NAN, 0.0, 0.0] };
+    fails!(LinearlyImplicitEuler::new(0.01), &[fast], StepError::Motion(0));
+}
+
+#[test]
+fn a_step_that_leaves_the_range_of_the_numbers_fails_names_the_particle_and_changes_nothing() {
+    let build = || {
+        let mut scene = VecScene::<f32>::empty();
+        scene.particle([0.0; 3], 1.0).unwrap();
+        scene.particle([0.0, 1.0, 0.0], 1.0).unwrap();
+        scene.set_velocity(1, [3e38, 0.0, 0.0]).unwrap();
+        scene
+    };
+    let mut scene = build();
+    // 3e38 m/s for 2 s: beyond the largest f32.
+    assert_eq!(scene.step(&mut LinearlyImplicitEuler::new(2.0)), Err(StepError::NotFinite(1)));
+    assert_eq!(build::bits(&scene), build::bits(&build()));
+}

@@ -1,0 +1,27 @@
+//! Exact identities: each test is named as a statement. Most compare bits; where rounding enters, the allowed error is in
+//! `allowed.rs` with its derivation.
+
+// Indices are those of the formulas.
+#![allow(clippy::needless_range_loop)]
+
+mod cables;
+mod catenary;
+mod coincident;
+mod counters;
+mod damping;
+mod edits;
+mod energy;
+mod errors;
+mod extremes;
+mod islands;
+mod matrices;
+mod memory;
+mod modes;
+mod momentum;
+mod one_spring;
+mod pins;
+mod rest;
+mod same_bits;
+mod scalings;
+mod snapshots;
+mod stiffness;
