@@ -48,7 +48,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
     scene.pin(wall)?;
     let dt = 0.1;
     let mut euler = LinearlyImplicitEuler::new(dt).tolerance(1e-14);
-    let energy = |scene: &Scene<f64, 2, 1>| scene.springs().kinetic() + scene.springs().potential();
+    let energy =
+        |scene: &Scene<f64, 2, 1>| scene.springs().kinetic_energy() + scene.springs().potential_energy();
     let mut before = energy(&scene);
     for n in 1..=4 {
         let report = scene.step(&mut euler)?;

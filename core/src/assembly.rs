@@ -11,11 +11,12 @@
 //! Source: the mass-spring lecture (assembly, linearly-implicit integration); DESIGN §2.4 and §4.
 
 use crate::certificate::{certify, charge, fails};
+use crate::error::StepError;
 use crate::force::Force;
 use crate::hessian::{Hessian, Scaling};
 use crate::law::Law;
 use crate::network::State;
-use crate::parts::{Edge, IslandParts, Other};
+use crate::parts::{Edge, IslandParts, Other, Parts};
 use crate::real::Real;
 use crate::selection::{self, Ends};
 use crate::spring::{Spring, Stretched};
@@ -26,25 +27,50 @@ use crate::vec3::{self, Vec3};
 pub(crate) struct Assembled {
     /// Springs clamped or replaced.
     pub(crate) clamped: u32,
-    /// No projection pass was needed.
+    /// Every node certified, and nothing replaced.
     pub(crate) certified: bool,
+    /// Some point spring holds this island.
+    pub(crate) points: bool,
     /// Nothing holds this island: no pin, no point spring.
     pub(crate) free: bool,
 }
 
-/// Assembles A, μ and b of an island for a method with matrix M + θhD − sK.
+/// M + θhD and the forces that are not the springs', for all islands at once: each force is asked once a step, however
+/// many islands there are. Rows that a point spring holds are marked in y.
+pub(crate) fn prepare<T: Real, F: Force<T>, L>(parts: &mut Parts<'_, T, L>, forces: &F, scaling: Scaling<T>) {
+    let (rows, work) = parts.all_rows();
+    let lists = work.b.iter_mut().zip(work.inertia.iter_mut()).zip(work.mu.iter_mut()).zip(work.y.iter_mut());
+    for ((((b, inertia), mu), y), i) in lists.zip(rows.particles()) {
+        let mass = rows.state.mass.get(i).copied().unwrap_or(T::ONE);
+        *inertia = if F::DRAGS { mass + scaling.damping * forces.drag(i, mass) } else { mass };
+        *b = [T::ZERO; 3];
+        *y = [T::ZERO; 3];
+        *mu = T::ZERO;
+    }
+    forces.add(&rows, work.b);
+    if F::ANCHORS {
+        forces.hessians(&rows, &mut |row, _| {
+            if let Some(mark) = work.y.get_mut(row) {
+                *mark = [T::ONE; 3];
+            }
+        });
+    }
+}
+
+/// Assembles A, μ and b of an island for a method with matrix M + θhD − sK, after [`prepare`].
 pub(crate) fn assemble<T: Real, F: Force<T>, L: Law>(
     island: &mut IslandParts<'_, T>,
     forces: &mut F,
     h: T,
     scaling: Scaling<T>,
-) -> Assembled {
-    inertia(island, forces, scaling);
-    let (replaced, points) = linearize::<T, F, L>(island, forces, scaling);
+) -> Result<Assembled, StepError> {
+    let points = F::ANCHORS && island.work.y.iter().any(|mark| mark[0] != T::ZERO);
+    let replaced = linearize::<T, F, L>(island, forces, scaling, points);
     let certified = certify(island.work.inertia, island.work.mu);
-    let clamped = if certified { 0 } else { project::<T, F, L>(island, forces, scaling) };
-    right_side(island, forces, h, scaling);
-    Assembled { clamped: replaced + clamped, certified, free: island.anchors.is_empty() && points == 0 }
+    let clamped = if certified { 0 } else { project::<T, F, L>(island, forces, scaling, points)? };
+    right_side(island, forces, h, scaling, points);
+    let free = island.anchors.is_empty() && !points;
+    Ok(Assembled { clamped: replaced + clamped, certified: certified && replaced == 0, points, free })
 }
 
 /// A spring of an island at the present state.
@@ -92,29 +118,17 @@ impl<T: Real> Loaded<T> {
     }
 }
 
-/// M + θhD, and zeros where f and μ will be summed.
-fn inertia<T: Real, F: Force<T>>(island: &mut IslandParts<'_, T>, forces: &F, scaling: Scaling<T>) {
-    let IslandParts { rows, work, .. } = island;
-    let lists = work.b.iter_mut().zip(work.inertia.iter_mut()).zip(work.mu.iter_mut());
-    for (((b, inertia), mu), i) in lists.zip(rows.particles()) {
-        let mass = rows.state.mass.get(i).copied().unwrap_or(T::ONE);
-        *inertia = if F::DRAGS { mass + scaling.damping * forces.drag(i, mass) } else { mass };
-        *b = [T::ZERO; 3];
-        *mu = T::ZERO;
-    }
-}
-
-/// Forces into b, Hessians, and what compressed springs charge μ with. Answers how many Hessians are replacements, and
-/// how many point springs hold the island.
+/// The springs' forces into b, Hessians, and what compressed springs charge μ with. Answers how many Hessians are
+/// replacements.
 fn linearize<T: Real, F: Force<T>, L: Law>(
     island: &mut IslandParts<'_, T>,
     forces: &mut F,
     scaling: Scaling<T>,
-) -> (u32, u32) {
+    points: bool,
+) -> u32 {
     let edges = island.edges();
     let IslandParts { rows, work, .. } = island;
-    let (mut replaced, mut points) = (0, 0);
-    forces.add(rows, work.b);
+    let mut replaced = 0;
     for (edge, place) in edges.zip(work.hessian.iter_mut()) {
         let loaded = Loaded::new::<F, L>(&rows.state, forces, &edge);
         let h = loaded.hessian(scaling);
@@ -123,23 +137,22 @@ fn linearize<T: Real, F: Force<T>, L: Law>(
         scatter(&edge, loaded.force(), work.b);
         charge_ends(&edge, &h, work.mu);
     }
-    if F::ANCHORS {
+    if F::ANCHORS && points {
         replaced += forces.linearize(rows, scaling);
-        forces.hessians(rows, &mut |row, h| {
-            charge(work.mu, row, T::ONE, &h);
-            points += 1;
-        });
+        forces.hessians(rows, &mut |row, h| charge(work.mu, row, T::ONE, &h));
     }
-    (replaced, points)
+    replaced
 }
 
-/// Clamps the compressed springs that meet a node without certificate, and computes μ anew. Answers how many.
+/// Clamps the compressed springs that meet a node without certificate, and computes μ anew. Answers how many. What
+/// fails then is no spring's doing: a force of the caller's own with a negative drag or Hessian.
 #[cold]
 fn project<T: Real, F: Force<T>, L: Law>(
     island: &mut IslandParts<'_, T>,
     forces: &mut F,
     scaling: Scaling<T>,
-) -> u32 {
+    points: bool,
+) -> Result<u32, StepError> {
     let edges = island.edges();
     let IslandParts { rows, work, .. } = island;
     let mut clamped = 0;
@@ -151,7 +164,7 @@ fn project<T: Real, F: Force<T>, L: Law>(
             clamped += 1;
         }
     }
-    if F::ANCHORS {
+    if F::ANCHORS && points {
         clamped += forces.clamp(rows, scaling, |row| fails(work.mu, row));
     }
     for mu in work.mu.iter_mut() {
@@ -160,15 +173,24 @@ fn project<T: Real, F: Force<T>, L: Law>(
     for (edge, h) in edges.zip(work.hessian.iter()) {
         charge_ends(&edge, &Hessian::unpack(*h), work.mu);
     }
-    if F::ANCHORS {
+    if F::ANCHORS && points {
         forces.hessians(rows, &mut |row, h| charge(work.mu, row, T::ONE, &h));
     }
-    certify(work.inertia, work.mu);
-    clamped
+    if certify(work.inertia, work.mu) {
+        return Ok(clamped);
+    }
+    let failing = rows.particles().enumerate().find(|(row, _)| fails(work.mu, *row));
+    Err(StepError::NotCertified(failing.map_or(0, |(_, i)| i)))
 }
 
 /// b = h f − θh D q̇ − Σ E_jᵀ H_j (Δq̇)_j, f being in b.
-fn right_side<T: Real, F: Force<T>>(island: &mut IslandParts<'_, T>, forces: &F, h: T, scaling: Scaling<T>) {
+fn right_side<T: Real, F: Force<T>>(
+    island: &mut IslandParts<'_, T>,
+    forces: &F,
+    h: T,
+    scaling: Scaling<T>,
+    points: bool,
+) {
     let edges = island.edges();
     let IslandParts { rows, work, pin_velocity, free, .. } = island;
     let velocity = |i: usize| rows.state.velocity.get(i).copied().unwrap_or([T::ZERO; 3]);
@@ -190,7 +212,7 @@ fn right_side<T: Real, F: Force<T>>(island: &mut IslandParts<'_, T>, forces: &F,
         let product = Hessian::unpack(*hessian).mul(vec3::sub(velocity(edge.a), other));
         scatter(&edge, vec3::scale(-T::ONE, product), work.b);
     }
-    if F::ANCHORS {
+    if F::ANCHORS && points {
         forces.hessians(rows, &mut |row, hessian| {
             let v = rows.particle.get(row).map_or([T::ZERO; 3], |i| velocity(*i as usize));
             if let Some(b) = work.b.get_mut(row) {

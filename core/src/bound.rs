@@ -11,7 +11,7 @@
 //! component by component, for the matrix *of the stored floats*; δ is added above and taken off below. (Sums of
 //! Hestenes and Stiefel would bound an earlier iterate.)
 //!
-//! Cost: one product and a half, once per solve. Valid for rows of up to 2¹⁷ springs in f32, 2⁴⁶ in f64.
+//! Cost: one product at each check of a solve (most have one), one more at its end. Valid for rows of up to 2¹⁷ springs in f32, 2⁴⁶ in f64.
 //!
 //! Sources: Higham, *Accuracy and Stability of Numerical Algorithms*, §3.3 (running error analysis); DESIGN §2.3.
 

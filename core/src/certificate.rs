@@ -1,6 +1,6 @@
 //! The certificate that A needs no projection, node by node, and the clamping where it does.
 //!
-//! αI|x_A − x_B|² ≥ 2α(|x_A|² + |x_B|²) for α < 0, so with c_e = 2 (1 where the other end is pinned or a point)
+//! α|x_A − x_B|² ≥ 2α(|x_A|² + |x_B|²) for α < 0, so with c_e = 2 (1 where the other end is pinned or a point)
 //!
 //! A ⪰ diag(μ),  μᵢ = m̃ᵢ − Σ_{e∋i} c_e max(0, −αₑ)   (α already scaled by s).
 //!
@@ -11,10 +11,10 @@
 use crate::hessian::Hessian;
 use crate::real::Real;
 
-/// Adds c·max(0, −α) of a spring to a node's sum, rounded up.
+/// Adds c·max(0, −α) of a spring to a node's sum, rounded up; a NaN stays one, and fails.
 #[inline(always)]
 pub(crate) fn charge<T: Real>(sum: &mut [T], row: usize, c: T, h: &Hessian<T>) {
-    if h.alpha < T::ZERO
+    if !(h.alpha >= T::ZERO)
         && let Some(sum) = sum.get_mut(row)
     {
         let up = T::ONE + T::TWO * T::TWO * T::UNIT_ROUNDOFF;

@@ -80,7 +80,8 @@ impl<M: Memory> MassSpring<M> {
         if pushed { Ok(j) } else { Err(EditError::SpringsFull(room)) }
     }
 
-    /// Pins a particle where it is: it is no unknown any more, and rests unless a step is told its motion.
+    /// Pins a particle where it is: its velocity becomes 0 (also if it was a moving pin), it is no unknown any more, and
+    /// rests unless a step is told its motion.
     pub fn pin(&mut self, i: usize) -> Result<(), EditError> {
         let slot = self.network.slot.get_mut(i).ok_or(EditError::NoParticle(i))?;
         if *slot & MARK == 0 {

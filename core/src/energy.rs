@@ -22,7 +22,7 @@ pub struct Energies<'a, T, L> {
 
 impl<T: Real, L: Law> Energies<'_, T, L> {
     /// ½ mᵢ|q̇ᵢ|², J; 0 out of range.
-    pub fn kinetic_of(&self, particle: usize) -> T {
+    pub fn kinetic_energy_of(&self, particle: usize) -> T {
         match (self.state.mass.get(particle), self.state.velocity.get(particle)) {
             (Some(m), Some(v)) => T::HALF * *m * vec3::dot(*v, *v),
             _ => T::ZERO,
@@ -30,12 +30,12 @@ impl<T: Real, L: Law> Energies<'_, T, L> {
     }
 
     /// T, J
-    pub fn kinetic(&self) -> T {
-        (0..self.state.mass.len()).fold(T::ZERO, |sum, i| sum + self.kinetic_of(i))
+    pub fn kinetic_energy(&self) -> T {
+        (0..self.state.mass.len()).fold(T::ZERO, |sum, i| sum + self.kinetic_energy_of(i))
     }
 
     /// V_j, J; 0 for a slack cable, a broken spring, or out of range.
-    pub fn potential_of(&self, spring: usize) -> T {
+    pub fn potential_energy_of(&self, spring: usize) -> T {
         match self.loaded(spring) {
             Some((spring, stretched)) => spring.potential_energy(stretched.length),
             None => T::ZERO,
@@ -43,13 +43,13 @@ impl<T: Real, L: Law> Energies<'_, T, L> {
     }
 
     /// V of all springs, J
-    pub fn potential(&self) -> T {
-        (0..self.state.springs()).fold(T::ZERO, |sum, j| sum + self.potential_of(j))
+    pub fn potential_energy(&self) -> T {
+        (0..self.state.springs()).fold(T::ZERO, |sum, j| sum + self.potential_energy_of(j))
     }
 
     /// L = T − V, J (of the springs; a force's own potential is its `potential_energy`)
     pub fn lagrangian(&self) -> T {
-        self.kinetic() - self.potential()
+        self.kinetic_energy() - self.potential_energy()
     }
 
     /// Tension k(l − l₀) of a spring, N: positive pulls. 0 for a slack cable, a broken spring, or out of range.

@@ -41,15 +41,21 @@ pub enum StepError {
     TimeStep,
     /// The relative or absolute tolerance is negative, infinite or NaN.
     Tolerance,
-    /// A force has a value that is infinite, NaN or (a drag, damping or stiffness) negative; the particle or spring it
-    /// acts on, 0 for one that acts on all.
+    /// Gravity or drag has a value that is infinite, NaN or (drag) negative.
+    Field,
+    /// A force on this particle has a value that is infinite, NaN or (a stiffness, a rest length) negative.
     Force(usize),
+    /// The damping of this spring is negative, infinite or NaN.
+    Damping(usize),
     /// A force names a particle that does not exist.
     NoParticle(usize),
     /// A motion is given to a particle that is not pinned, or does not exist.
     NotPinned(usize),
     /// A motion's position or velocity is infinite or NaN, or too far away to reach in one step.
     Motion(usize),
+    /// The matrix is not certified at this particle even after clamping: a force of the caller's own has a negative drag
+    /// or Hessian, or one that is NaN.
+    NotCertified(usize),
     /// The step would give this particle, or one of the island that begins with it, an infinite or NaN position or
     /// velocity, or no finite error bound.
     NotFinite(usize),
@@ -80,11 +86,20 @@ impl fmt::Display for StepError {
         match *self {
             Self::TimeStep => write!(f, "dt is not a positive finite number"),
             Self::Tolerance => write!(f, "a tolerance is negative, infinite or NaN"),
-            Self::Force(i) => write!(f, "a force on {i} has an infinite, NaN or negative value"),
+            Self::Field => write!(f, "gravity or drag has an infinite, NaN or negative value"),
+            Self::Force(i) => write!(f, "a force on particle {i} has an infinite, NaN or negative value"),
+            Self::Damping(j) => write!(f, "spring {j}: the damping is negative, infinite or NaN"),
+            Self::NotCertified(i) => {
+                write!(f, "the matrix at particle {i} is not positive: a force there is not dissipative")
+            }
             Self::NoParticle(i) => write!(f, "a force acts on particle {i}, which does not exist"),
             Self::NotPinned(i) => write!(f, "a motion is given to particle {i}, which is not pinned"),
-            Self::Motion(i) => write!(f, "the motion of pinned particle {i} is infinite or NaN"),
-            Self::NotFinite(i) => write!(f, "particle {i} would leave the range of the numbers"),
+            Self::Motion(i) => {
+                write!(f, "the motion of pinned particle {i} is infinite, NaN or too far for one step")
+            }
+            Self::NotFinite(i) => {
+                write!(f, "particle {i}, or its island, would leave the range of the numbers")
+            }
         }
     }
 }

@@ -70,7 +70,7 @@ pub struct State<'a, T> {
     pub(crate) rest_length: &'a [T],
 }
 
-impl<'a, T: Real> State<'a, T> {
+impl<T: Real> State<'_, T> {
     /// Number of springs ever added, the broken ones included.
     pub fn springs(&self) -> usize {
         self.ends.len()
@@ -98,12 +98,6 @@ impl<'a, T: Real> State<'a, T> {
     #[inline(always)]
     pub(crate) fn live(&self, j: usize) -> Option<Ends> {
         self.ends.get(j).map(|pair| Ends::unpack(*pair)).filter(|ends| !ends.broken)
-    }
-
-    /// The unbroken springs with their ends, in order.
-    pub(crate) fn each_spring(&self) -> impl Iterator<Item = (usize, Ends, Spring<T>)> + use<'a, T> {
-        let state = *self;
-        (0..self.ends.len()).filter_map(move |j| Some((j, state.live(j)?, state.spring(j))))
     }
 
     /// Δx of a spring.

@@ -9,7 +9,7 @@ use crate::network::State;
 use crate::real::Real;
 use crate::vec3::Vec3;
 
-/// All of a scene for one step. Only this crate's integrators look inside.
+/// All of a scene for one step, opaque: only this crate's integrators look inside.
 pub struct Parts<'a, T, L> {
     pub(crate) position: &'a mut [Vec3<T>],
     pub(crate) velocity: &'a mut [Vec3<T>],
@@ -43,6 +43,22 @@ pub(crate) struct Work<'a, T> {
     pub(crate) mu: &'a mut [T],
     pub(crate) block: &'a mut [[T; 6]],
     pub(crate) hessian: &'a mut [[T; 4]],
+}
+
+impl<T> Work<'_, T> {
+    /// So many rows and springs of every list.
+    fn part(&mut self, first: usize, n: usize, first_edge: usize, edges: usize) -> Work<'_, T> {
+        Work {
+            r: part_mut(self.r, first, n),
+            b: part_mut(self.b, first, n),
+            p: part_mut(self.p, first, n),
+            y: part_mut(self.y, first, n),
+            inertia: part_mut(self.inertia, first, n),
+            mu: part_mut(self.mu, first, n),
+            block: part_mut(self.block, first, n),
+            hessian: part_mut(self.hessian, first_edge, edges),
+        }
+    }
 }
 
 /// One island of a scene: its rows of every list.
@@ -106,6 +122,17 @@ impl<'a, T: Real> IslandParts<'a, T> {
 }
 
 impl<T: Real, L> Parts<'_, T, L> {
+    /// The rows of all islands together.
+    pub(crate) fn all_rows(&mut self) -> (Rows<'_, T>, Work<'_, T>) {
+        let free = self.free;
+        let Self {
+            position, velocity, mass, slot, spring_ends, stiffness, rest_length, particle, work, ..
+        } = self;
+        let state = State { position, velocity, mass, slot, ends: spring_ends, stiffness, rest_length };
+        let rows = Rows { first: 0, particle: part(particle, 0, free), state };
+        (rows, work.part(0, free, 0, 0))
+    }
+
     /// Island k, or `None` past the last.
     pub(crate) fn island(&mut self, k: usize) -> Option<IslandParts<'_, T>> {
         let island = Island::unpack(*self.islands.get(k)?);
@@ -130,16 +157,7 @@ impl<T: Real, L> Parts<'_, T, L> {
             pin_velocity,
             free: self.free,
             particle: self.particle,
-            work: Work {
-                r: part_mut(self.work.r, first, n),
-                b: part_mut(self.work.b, first, n),
-                p: part_mut(self.work.p, first, n),
-                y: part_mut(self.work.y, first, n),
-                inertia: part_mut(self.work.inertia, first, n),
-                mu: part_mut(self.work.mu, first, n),
-                block: part_mut(self.work.block, first, n),
-                hessian: part_mut(self.work.hessian, first_edge, edges),
-            },
+            work: self.work.part(first, n, first_edge, edges),
         })
     }
 }

@@ -37,7 +37,7 @@ pub struct Stop<T> {
 
 impl<T: Real> Stop<T> {
     /// R = 1e-6 (f64) or 1e-4 (f32), J = 0, at most 10,000 iterations.
-    pub fn new() -> Self {
+    pub const fn new() -> Self {
         Self { relative: T::DEFAULT_TOLERANCE, absolute: T::ZERO, max_iterations: 10_000 }
     }
 }
@@ -64,8 +64,8 @@ pub(crate) struct Vectors<'a, T> {
     pub(crate) weight: &'a [T],
 }
 
-/// Solves A x = b. On an island that nothing holds (`free`), the sum of the momentum equations is repaired at every
-/// check, so that momentum is kept to rounding even when iterations are cut short.
+/// Solves A x = b. On an island that nothing holds (`free`), the sum of the momentum equations is repaired at the start
+/// and at every check, so that momentum is kept to rounding even when iterations are cut short.
 pub(crate) fn solve<T: Real, F: Force<T>>(
     system: &System<'_, T, F>,
     preconditioner: &impl Preconditioner<T>,
@@ -78,16 +78,25 @@ pub(crate) fn solve<T: Real, F: Force<T>>(
         *x = [T::ZERO; 3];
         *r = *b;
     }
-    let start = bound::weighted(r, weight);
-    let goal = larger(stop.relative * stop.relative * start, stop.absolute);
+    if r.iter().all(|r| *r == [T::ZERO; 3]) {
+        return Solve { iterations: 0, upper: T::ZERO, lower: T::ZERO, ending: Ending::Untouched };
+    }
+    let mut start = bound::weighted(r, weight);
+    // No goal is relative to what has overflowed.
+    let relative = if start.is_finite() { stop.relative * stop.relative * start } else { T::ZERO };
+    let goal = larger(relative, stop.absolute);
+    if free {
+        // What acts on the island as a whole it follows as a whole, whatever the tolerance.
+        keep_momentum(system.inertia, b, x);
+        bound::residual(system, b, x, r, p);
+        start = bound::weighted(r, weight);
+    }
     let met = start <= goal && start.is_finite();
     if met || stop.max_iterations == 0 {
         let ending = if met { Ending::Untouched } else { Ending::Capped };
-        if r.iter().all(|r| *r == [T::ZERO; 3]) {
-            return Solve { iterations: 0, upper: T::ZERO, lower: T::ZERO, ending };
-        }
+        let error = if free { Some(&*p) } else { None };
         preconditioner.apply(r, y);
-        let (upper, lower) = (bound::upper(r, None, weight), bound::lower(system, r, None, y));
+        let (upper, lower) = (bound::upper(r, error, weight), bound::lower(system, r, error, y));
         return Solve { iterations: 0, upper, lower, ending };
     }
 

@@ -8,7 +8,6 @@ use crate::force::{Force, Rows};
 use crate::law::Law;
 use crate::real::Real;
 use crate::selection;
-use crate::spring::Stretched;
 use crate::vec3::{self, Vec3};
 
 pub(crate) fn reaction<T: Real, L: Law, F: Force<T>>(
@@ -26,16 +25,13 @@ pub(crate) fn reaction<T: Real, L: Law, F: Force<T>>(
     if F::DRAGS {
         f = vec3::add_scaled(f, -forces.drag(i, mass), v);
     }
-    for (j, ends, spring) in state.each_spring() {
+    for j in 0..state.springs() {
+        let (Some(ends), Some((spring, stretched))) = (state.live(j), springs.loaded(j)) else { continue };
         let toward = match (ends.a == i, ends.b == i) {
             (true, false) => -T::ONE,
             (false, true) => T::ONE,
             _ => continue,
         };
-        let stretched = Stretched::new(state.delta(ends));
-        if L::slackens(ends.cable) && stretched.length < spring.rest_length {
-            continue;
-        }
         let mut pull = spring.tension(stretched.length);
         if F::DAMPS {
             let rate = vec3::dot(selection::difference(ends.a, ends.b, state.velocity), stretched.direction);

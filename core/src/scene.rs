@@ -194,7 +194,8 @@ impl<M: Memory> MassSpring<M> {
         integrator.advance(self.parts(), motion, &mut |_| {})
     }
 
-    /// Advances by one step and shows the report of each island on the way.
+    /// Advances by one step and shows the report of each island on the way, before it is known whether all of them can
+    /// be advanced: after an error the reports seen are of a step that was not made.
     pub fn step_watched<I: Integrator<M::Real>>(
         &mut self,
         integrator: &mut I,

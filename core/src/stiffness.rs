@@ -10,15 +10,16 @@ use crate::hessian::{Hessian, Scaling};
 use crate::law::Law;
 use crate::real::Real;
 use crate::selection::{self, Ends};
-use crate::spring::Stretched;
 use crate::vec3::{self, Vec3};
 
 impl<T: Real, L: Law> Energies<'_, T, L> {
     /// f += −∂V/∂q, N. Rows beyond the slice are left out.
     pub fn add_force(&self, f: &mut [Vec3<T>]) {
-        for (j, ends, _) in self.state.each_spring() {
-            let direction = Stretched::new(self.state.delta(ends)).direction;
-            selection::scatter(ends.a, ends.b, vec3::scale(-self.tension_of(j), direction), f);
+        for j in 0..self.state.springs() {
+            if let (Some(ends), Some((spring, stretched))) = (self.state.live(j), self.loaded(j)) {
+                let pull = -spring.tension(stretched.length);
+                selection::scatter(ends.a, ends.b, vec3::scale(pull, stretched.direction), f);
+            }
         }
     }
 

@@ -5,8 +5,9 @@
 //! its bits. xᵀAx comes with it as Σ m̃ x² + Σ (α Δ² + (w·Δ)²): with α ≥ 0 a sum of non-negative terms, which rounding
 //! cannot make ≤ 0.
 //!
-//! Cost per product: a difference, a dot and a scatter per spring (23 flops with the form), 8 per particle. Memory: 4
-//! numbers and 2 indices per spring, 1 number per particle. Source: the mass-spring lecture (linearly-implicit time
+//! Cost per product: a difference, a dot and a scatter per spring (23 flops, and 9 for the form), 9 per particle; each
+//! point spring is asked once in the islands that one holds. Memory: 4 numbers and 2 indices per spring, 1 number per
+//! particle. Source: the mass-spring lecture (linearly-implicit time
 //! integration); DESIGN §2.
 
 use crate::force::{Force, Rows};
@@ -34,6 +35,8 @@ pub struct System<'a, T, F> {
     pub(crate) anchor_hessians: &'a [[T; 4]],
     /// Point springs, if the set of forces has any
     pub(crate) forces: &'a F,
+    /// Does any of them hold this island?
+    pub(crate) points: bool,
     pub(crate) rows: Rows<'a, T>,
 }
 
@@ -45,10 +48,11 @@ impl<'a, T: Real, F: Force<T>> System<'a, T, F> {
         inertia: &'a [T],
         hessians: &'a [[T; 4]],
         forces: &'a F,
+        points: bool,
     ) -> Self {
         let (pair_hessians, anchor_hessians) =
             hessians.split_at_checked(pairs.len()).unwrap_or((hessians, &[]));
-        Self { inertia, pairs, pair_hessians, anchors, anchor_hessians, forces, rows }
+        Self { inertia, pairs, pair_hessians, anchors, anchor_hessians, forces, points, rows }
     }
 
     /// The springs with two free ends: (a, b, H).
@@ -66,12 +70,12 @@ impl<'a, T: Real, F: Force<T>> System<'a, T, F> {
         for (&[a, _], h) in self.anchors.iter().zip(self.anchor_hessians) {
             visit(a as usize, Hessian::unpack(*h));
         }
-        if F::ANCHORS {
+        if F::ANCHORS && self.points {
             self.forces.hessians(&self.rows, &mut visit);
         }
     }
 
-    /// Visits the 3×3 blocks of A's diagonal: M̃ + Σ H.
+    /// Writes the 3×3 blocks of A's diagonal: M̃ + Σ H.
     pub(crate) fn diagonal(&self, blocks: &mut [[T; 6]]) {
         for (block, m) in blocks.iter_mut().zip(self.inertia) {
             *block = Sym3::scalar(*m).0;

@@ -20,7 +20,10 @@ fn a_slack_cable_has_no_force_no_energy_and_no_stiffness() {
     let mut scene = hanging::<Cables>(0.75);
     scene.set_velocity(1, [0.5, 0.25, 0.0]).unwrap();
     let springs = scene.springs();
-    assert_eq!((springs.potential(), springs.tension_of(0), springs.length_of(0)), (0.0, 0.0, Some(0.75)));
+    assert_eq!(
+        (springs.potential_energy(), springs.tension_of(0), springs.length_of(0)),
+        (0.0, 0.0, Some(0.75))
+    );
     let (mut f, mut y) = ([[0.0; 3]; 2], [[0.0; 3]; 2]);
     springs.add_force(&mut f);
     springs.stiffness_product(&[[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]], &mut y);
@@ -63,7 +66,7 @@ fn in_a_mixed_scene_exactly_the_cables_go_slack() {
     let spring = scene.spring_with(0, 1, SPRING).unwrap();
     let cable = scene.cable(1, 2, SPRING).unwrap();
     assert_eq!((scene.springs().tension_of(spring), scene.springs().tension_of(cable)), (-50.0, 0.0));
-    assert_eq!(scene.springs().potential(), 12.5);
+    assert_eq!(scene.springs().potential_energy(), 12.5);
     let mut f = [[0.0; 3]; 3];
     scene.springs().add_force(&mut f);
     assert_eq!(f, [[-50.0, 0.0, 0.0], [50.0, 0.0, 0.0], [0.0; 3]]);

@@ -82,3 +82,13 @@ fn clamping_first_and_then_w_keeps_the_axial_stiffness_k_down_to_the_shortest_le
         assert_eq!(h.mul([1.0, 0.0, 1.0]), [0.0; 3]);
     }
 }
+
+#[test]
+fn a_replaced_hessian_counts_as_projected_and_its_step_as_not_certified() {
+    let mut scene = hooke::Scene::<f64, 2, 1>::new();
+    scene.particle([0.0; 3], 1.0).unwrap();
+    scene.particle([0.0; 3], 1.0).unwrap();
+    scene.spring_with(0, 1, hooke::Spring { stiffness: 5.0, rest_length: 1.0 }).unwrap();
+    let report = scene.step(&mut hooke::LinearlyImplicitEuler::new(0.1)).unwrap();
+    assert_eq!((report.clamped, report.is_certified()), (1, false));
+}

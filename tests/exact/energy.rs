@@ -41,19 +41,19 @@ fn second_demand_v_is_unchanged_by_rigid_motion() {
     // Dyadic positions, so that a translation by a dyadic vector is exact: V has the same bits.
     let grid = |x: f64| (x * 1024.0).round() / 1024.0;
     let placed = data.moved(|x| x.map(grid), |v| v);
-    let v = build::scene::<f64>(&placed).springs().potential();
+    let v = build::scene::<f64>(&placed).springs().potential_energy();
     assert!(v > 0.0);
     let shifted = placed.moved(|x| [x[0] + 8.0, x[1] - 3.5, x[2] + 0.125], |v| v);
-    assert_eq!(build::scene::<f64>(&shifted).springs().potential().to_bits(), v.to_bits());
+    assert_eq!(build::scene::<f64>(&shifted).springs().potential_energy().to_bits(), v.to_bits());
     // Half turns and reflections only change signs.
     let turned = placed.moved(|x| [-x[0], x[1], -x[2]], |v| v);
-    assert_eq!(build::scene::<f64>(&turned).springs().potential().to_bits(), v.to_bits());
+    assert_eq!(build::scene::<f64>(&turned).springs().potential_energy().to_bits(), v.to_bits());
     // Any rotation, to rounding.
     let rotation = nalgebra::Rotation3::from_euler_angles(0.3, -1.1, 2.0);
     let rotated = data.moved(|x| (rotation * nalgebra::Vector3::from(x)).into(), |v| v);
     let (before, after) = (
-        build::scene::<f64>(&data).springs().potential(),
-        build::scene::<f64>(&rotated).springs().potential(),
+        build::scene::<f64>(&data).springs().potential_energy(),
+        build::scene::<f64>(&rotated).springs().potential_energy(),
     );
     let k: f64 = data.springs.iter().map(|s| s.k).sum();
     assert!((after - before).abs() <= allowed::ROTATED_ENERGY * allowed::U64 * k, "{before} {after}");
@@ -62,12 +62,12 @@ fn second_demand_v_is_unchanged_by_rigid_motion() {
 #[test]
 fn third_demand_v_is_of_positions_only() {
     let mut data = network(2);
-    let v = build::scene::<f64>(&data).springs().potential();
+    let v = build::scene::<f64>(&data).springs().potential_energy();
     let mut random = Random::new(3);
     for v in &mut data.velocity {
         *v = random.vector(100.0);
     }
-    assert_eq!(build::scene::<f64>(&data).springs().potential().to_bits(), v.to_bits());
+    assert_eq!(build::scene::<f64>(&data).springs().potential_energy().to_bits(), v.to_bits());
 }
 
 #[test]
@@ -124,12 +124,12 @@ fn kinetic_potential_and_lagrangian_are_the_multi_precision_ones_to_rounding() {
             (precise::small(&precise::kinetic(&data, &v)), precise::small(&precise::potential(&data, &q)));
         let size: f64 = data.springs.iter().map(|s| s.k * s.l0.max(1.0).powi(2) * 4.0).sum();
         let allowed = allowed::ENERGY * allowed::U64 * (t + size);
-        assert!((springs.kinetic() - t).abs() <= allowed);
-        assert!((springs.potential() - p).abs() <= allowed);
+        assert!((springs.kinetic_energy() - t).abs() <= allowed);
+        assert!((springs.potential_energy() - p).abs() <= allowed);
         assert!(
             (springs.lagrangian() - precise::small(&precise::lagrangian(&data, &q, &v))).abs()
                 <= 2.0 * allowed
         );
-        assert_eq!(springs.lagrangian(), springs.kinetic() - springs.potential());
+        assert_eq!(springs.lagrangian(), springs.kinetic_energy() - springs.potential_energy());
     }
 }

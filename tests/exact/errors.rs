@@ -213,14 +213,14 @@ fn a_tolerance_that_is_none_is_refused() {
 fn forces_with_bad_values_are_refused_and_named() {
     let euler = || LinearlyImplicitEuler::new(0.01);
     for bad in BAD {
-        fails!(euler().with(Gravity([0.0, bad, 0.0])), &[], StepError::Force(0));
+        fails!(euler().with(Gravity([0.0, bad, 0.0])), &[], StepError::Field);
         fails!(euler().with(PointForce { particle: 2, force: [0.0, 0.0, bad] }), &[], StepError::Force(2));
         fails!(euler().with(PointSpring::new(1, [bad, 0.0, 0.0], 1.0)), &[], StepError::Force(1));
     }
     for bad in BAD.into_iter().chain([-1.0]) {
-        fails!(euler().with(Drag(bad)), &[], StepError::Force(0));
-        fails!(euler().with(SpringDamping(bad)), &[], StepError::Force(0));
-        fails!(euler().with(SpringDamping([0.0, bad].as_slice())), &[], StepError::Force(1));
+        fails!(euler().with(Drag(bad)), &[], StepError::Field);
+        fails!(euler().with(SpringDamping(bad)), &[], StepError::Damping(0));
+        fails!(euler().with(SpringDamping([0.0, bad].as_slice())), &[], StepError::Damping(1));
         fails!(euler().with(PointSpring::new(2, [0.0; 3], bad)), &[], StepError::Force(2));
         fails!(euler().with(PointSpring::new(2, [0.0; 3], 1.0).rest_length(bad)), &[], StepError::Force(2));
     }
@@ -262,4 +262,45 @@ fn a_step_that_leaves_the_range_of_the_numbers_fails_names_the_particle_and_chan
     // 3e38 m/s for 2 s: beyond the largest f32.
     assert_eq!(scene.step(&mut LinearlyImplicitEuler::new(2.0)), Err(StepError::NotFinite(1)));
     assert_eq!(build::bits(&scene), build::bits(&build()));
+}
+
+/// A force of the caller's own that breaks its duty: it pushes away with a negative Hessian, or speeds up.
+struct Unstable {
+    alpha: f64,
+    drag: f64,
+}
+
+impl hooke::Force<f64> for Unstable {
+    const DRAGS: bool = true;
+    const ANCHORS: bool = true;
+
+    fn check(&self, _: usize, _: usize) -> Result<(), StepError> {
+        Ok(())
+    }
+    fn drag(&self, particle: usize, _: f64) -> f64 {
+        if particle == 1 { self.drag } else { 0.0 }
+    }
+    fn hessians(
+        &self,
+        rows: &hooke::force::Rows<'_, f64>,
+        visit: &mut impl FnMut(usize, hooke::Hessian<f64>),
+    ) {
+        if let Some(row) = rows.row(1) {
+            visit(row, hooke::Hessian { alpha: self.alpha, w: [0.0; 3] });
+        }
+    }
+}
+
+#[test]
+fn a_force_that_would_make_the_matrix_indefinite_is_an_error_and_no_false_bound() {
+    for (alpha, drag) in [(-5.0, 0.0), (f64::NAN, 0.0), (0.0, -100.0), (0.0, f64::NAN)] {
+        let mut scene = hooke::Scene::<f64, 2, 1>::new();
+        let a = scene.particle([0.0; 3], 1.0).unwrap();
+        let b = scene.particle([1.0, 0.0, 0.0], 1.0).unwrap();
+        scene.spring(a, b, 10.0).unwrap();
+        scene.set_velocity(a, [0.0, 1.0, 0.0]).unwrap();
+        let mut euler = LinearlyImplicitEuler::new(0.1).with(Unstable { alpha, drag });
+        assert_eq!(scene.step(&mut euler), Err(StepError::NotCertified(1)), "α = {alpha}, drag {drag}");
+        assert_eq!(scene.velocities(), [[0.0, 1.0, 0.0], [0.0; 3]]);
+    }
 }

@@ -22,6 +22,9 @@ fn a_solve_that_overflows_is_not_called_converged() {
     // |b|² is beyond f32, so neither tolerance nor bound can be judged: nothing may claim that 0 iterations met R.
     let mut scene = VecScene::<f32>::empty();
     let i = scene.particle([0.0; 3], 1.0).unwrap();
+    let pin = scene.particle([1.0, 0.0, 0.0], 1.0).unwrap();
+    scene.pin(pin).unwrap();
+    scene.spring(i, pin, 1.0).unwrap();
     let force = PointForce { particle: i, force: [1e20, 0.0, 0.0] };
     let result = scene.step(&mut LinearlyImplicitEuler::new(1.0).with(force));
     if let Ok(report) = result {
@@ -44,11 +47,15 @@ fn a_step_never_answers_a_bound_that_is_no_number() {
 
 #[test]
 fn the_bounds_of_a_step_are_bounds_also_when_summed_over_many_islands() {
-    // One free particle per island, A = m exactly, no iteration: ½‖e‖² = ½|b|²/m each, b = h·m·g.
+    // One particle per island, held by a spring without stiffness, A = m exactly, no iteration: ½‖e‖² = ½|b|²/m each,
+    // b = h·m·g.
     let mut scene = VecScene::<f32>::empty();
     let islands = 20_000;
+    let pin = scene.particle([1.0, 0.0, 0.0], 1.0).unwrap();
+    scene.pin(pin).unwrap();
     for _ in 0..islands {
-        scene.particle([0.0; 3], 0.7).unwrap();
+        let i = scene.particle([0.0; 3], 0.7).unwrap();
+        scene.spring(pin, i, 0.0).unwrap();
     }
     let mut euler = LinearlyImplicitEuler::new(1.0f32 / 60.0).gravity([0.0, -9.81, 0.0]).max_iterations(0);
     let mut exact = 0.0;

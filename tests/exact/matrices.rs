@@ -98,9 +98,9 @@ fn scattered_forces_and_stiffness_equal_the_dense_matrices() {
         let flat = DVector::from_vec(x.concat());
         // k per metre of length instead of k: the shortest spring of these networks is above a tenth of a metre.
         compare(&y, &(dense.stiffness_matrix() * flat), 10.0, "stiffness");
-        let v = dense.potential();
+        let v = dense.potential_energy();
         assert!(
-            (scene.springs().potential() - v).abs()
+            (scene.springs().potential_energy() - v).abs()
                 <= allowed::ENERGY * allowed::U64 * size.iter().sum::<f64>()
         );
     }

@@ -87,10 +87,10 @@ fn decay(both: bool) {
         let mut scene = build::scene::<f64>(&data);
         let mut euler = LinearlyImplicitEuler::new(h).tolerance(0.0);
         let factor = 1.0 + (h * omega(masses, both, mode, k, m)).powi(2);
-        let mut before = scene.springs().kinetic() + scene.springs().potential();
+        let mut before = scene.springs().kinetic_energy() + scene.springs().potential_energy();
         for step in 0..10 {
             scene.step(&mut euler).unwrap();
-            let after = scene.springs().kinetic() + scene.springs().potential();
+            let after = scene.springs().kinetic_energy() + scene.springs().potential_energy();
             let ratio = after * factor / before;
             let amplitude = (2.0 * before / k).sqrt();
             let allowed = allowed::MODE_ENERGY * allowed::U64 * masses as f64 / amplitude;

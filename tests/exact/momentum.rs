@@ -101,3 +101,25 @@ fn the_kernels_momenta_and_centre_of_mass_are_their_sums() {
     assert!((l[2] - 2.0 * inertia).abs() <= 64.0 * allowed::U64 * 0.12, "{} for {}", l[2], 2.0 * inertia);
     assert_eq!(VecScene::<f64>::empty().state().centre_of_mass(), [0.0; 3]);
 }
+
+#[test]
+fn a_body_that_nothing_holds_falls_however_loose_the_tolerance_and_without_an_iteration() {
+    for (absolute, iterations) in [(1e9, 100), (0.0, 0)] {
+        let mut scene = hooke::Scene::<f64, 3, 2>::new();
+        for x in [0.0, 1.0, 2.0] {
+            scene.particle([x, 0.0, 0.0], 0.5).unwrap();
+        }
+        scene.spring(0, 1, 100.0).unwrap();
+        scene.spring(1, 2, 100.0).unwrap();
+        let mut euler = hooke::LinearlyImplicitEuler::new(0.125)
+            .gravity([0.0, -8.0, 0.0])
+            .absolute(absolute)
+            .max_iterations(iterations);
+        for step in 1..=4 {
+            let report = scene.step(&mut euler).unwrap();
+            assert_eq!(report.iterations, 0);
+            assert!(report.upper < 1e-28, "a rigid fall is exact: {report:?}");
+            assert!(scene.velocities().iter().all(|v| *v == [0.0, -f64::from(step), 0.0]));
+        }
+    }
+}

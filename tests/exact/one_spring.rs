@@ -33,10 +33,10 @@ fn with_rest_length_zero_and_h_omega_one_energy_halves_at_every_step_bit_for_bit
     scene.pin(wall).unwrap();
     scene.spring_with(wall, ball, Spring { stiffness: 1.0, rest_length: 0.0 }).unwrap();
     let mut euler = LinearlyImplicitEuler::new(1.0);
-    let mut energy = scene.springs().kinetic() + scene.springs().potential();
+    let mut energy = scene.springs().kinetic_energy() + scene.springs().potential_energy();
     for step in 0..20 {
         scene.step(&mut euler).unwrap();
-        let next = scene.springs().kinetic() + scene.springs().potential();
+        let next = scene.springs().kinetic_energy() + scene.springs().potential_energy();
         assert_eq!(next, energy / 2.0, "step {step}");
         energy = next;
     }

@@ -29,7 +29,7 @@ fn rests<T: Real>() {
             assert_eq!((report.upper, report.lower), (T::ZERO, T::ZERO));
         }
         assert_eq!(build::bits(&scene), before);
-        assert_eq!(scene.springs().potential(), T::ZERO);
+        assert_eq!(scene.springs().potential_energy(), T::ZERO);
     }
 }
 

@@ -30,7 +30,7 @@ fn the_dense_potential_and_gradient_are_the_multi_precision_ones_to_rounding() {
         let size: f64 = data.springs.iter().map(|s| s.k * s.l0.max(1.0).powi(2) * 4.0).sum();
         let v = small(&precise::potential(&data, &q));
         // The dense form squares l by five matrix products.
-        assert!((dense.potential() - v).abs() <= 2.0 * allowed::ENERGY * allowed::U64 * size);
+        assert!((dense.potential_energy() - v).abs() <= 2.0 * allowed::ENERGY * allowed::U64 * size);
         let f = dense.spring_force();
         for (i, g) in precise::gradient(&data, &q).iter().flatten().enumerate() {
             assert!((f[i] + small(g)).abs() <= allowed::DENSE_ROW * allowed::U64 * size);

@@ -89,12 +89,12 @@ proptest! {
     #[test]
     fn v_is_never_negative_and_zero_only_at_the_rest_length(spring in spring(), a in point(), b in point()) {
         let mut scene = build::scene::<f64>(&alone(spring, a, b));
-        let v = scene.springs().potential();
+        let v = scene.springs().potential_energy();
         let length = scene.springs().length_of(0).unwrap();
         prop_assert!(v >= 0.0);
         prop_assert_eq!(v == 0.0, length == spring.rest_length);
         scene.set_rest_length(0, length).unwrap();
-        prop_assert_eq!(scene.springs().potential(), 0.0);
+        prop_assert_eq!(scene.springs().potential_energy(), 0.0);
     }
 }
 
@@ -180,10 +180,10 @@ proptest! {
         data.springs.iter_mut().for_each(|s| s.l0 = 0.0);
         let mut scene = build::scene::<f64>(&data);
         let mut euler = LinearlyImplicitEuler::new(h).tolerance(1e-12);
-        let mut before = scene.springs().kinetic() + scene.springs().potential();
+        let mut before = scene.springs().kinetic_energy() + scene.springs().potential_energy();
         for _ in 0..10 {
             scene.step(&mut euler).unwrap();
-            let energy = scene.springs().kinetic() + scene.springs().potential();
+            let energy = scene.springs().kinetic_energy() + scene.springs().potential_energy();
             prop_assert!(energy >= 0.0 && energy <= before * (1.0 + allowed::ENERGY_GROWTH));
             before = energy;
         }

@@ -92,7 +92,7 @@ impl<'a> Dense<'a> {
     }
 
     /// V(q) = Σ ½ k (√(qᵀE_jᵀBᵀB E_j q) − l₀)² of the springs.
-    pub fn potential(&self) -> f64 {
+    pub fn potential_energy(&self) -> f64 {
         let (q, b) = (self.position(), self.difference());
         let one = |s: &crate::data::SpringData| {
             let e = self.spring_selection(s.a, s.b);

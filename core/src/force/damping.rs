@@ -50,7 +50,7 @@ impl<T: Real, C: Coefficients<T>> Force<T> for SpringDamping<C> {
     fn check(&self, _: usize, springs: usize) -> Result<(), StepError> {
         match self.0.invalid(springs) {
             None => Ok(()),
-            Some(j) => Err(StepError::Force(j)),
+            Some(j) => Err(StepError::Damping(j)),
         }
     }
 

@@ -12,7 +12,7 @@ impl<T: Real> Force<T> for Drag<T> {
     const DRAGS: bool = true;
 
     fn check(&self, _: usize, _: usize) -> Result<(), StepError> {
-        if self.0.is_finite() && self.0 >= T::ZERO { Ok(()) } else { Err(StepError::Force(0)) }
+        if self.0.is_finite() && self.0 >= T::ZERO { Ok(()) } else { Err(StepError::Field) }
     }
 
     #[inline]

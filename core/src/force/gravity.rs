@@ -12,7 +12,7 @@ pub struct Gravity<T>(pub Vec3<T>);
 
 impl<T: Real> Force<T> for Gravity<T> {
     fn check(&self, _: usize, _: usize) -> Result<(), StepError> {
-        if vec3::is_finite(self.0) { Ok(()) } else { Err(StepError::Force(0)) }
+        if vec3::is_finite(self.0) { Ok(()) } else { Err(StepError::Field) }
     }
 
     #[inline]

@@ -55,7 +55,8 @@ impl<'a, T: Real> Rows<'a, T> {
 }
 
 /// A force, or a set of forces. Every method has a default that does nothing; the constants say which ones a force
-/// needs, so that loops over the others are never compiled.
+/// needs, so that loops over the others are never compiled. [`Force::add`] is asked once a step; [`Force::hessians`] at
+/// every product, in the islands that hold one of its rows.
 pub trait Force<T: Real> {
     /// Does [`Force::drag`] answer anything but 0?
     const DRAGS: bool = false;
@@ -73,7 +74,7 @@ pub trait Force<T: Real> {
         let _ = (rows, f);
     }
 
-    /// Linear drag coefficient of a particle, N·s/m: the force is −d q̇ᵢ.
+    /// Linear drag coefficient of a particle, N·s/m, not negative: the force is −d q̇ᵢ.
     fn drag(&self, particle: usize, mass: T) -> T {
         let _ = (particle, mass);
         T::ZERO
@@ -92,7 +93,8 @@ pub trait Force<T: Real> {
         0
     }
 
-    /// Clamps the Hessians on rows that `fails`; answers how many it changed.
+    /// Clamps the Hessians with a negative α on rows that `fails`; answers how many it changed. A force that leaves one
+    /// negative there makes the step an error ([`StepError::NotCertified`]), not a wrong bound.
     fn clamp(&mut self, rows: &Rows<'_, T>, scaling: Scaling<T>, fails: impl Fn(usize) -> bool) -> u32 {
         let _ = (rows, scaling, fails);
         0

@@ -13,7 +13,7 @@ use crate::spring::{Spring, Stretched};
 use crate::vec3::{self, Vec3};
 
 /// A spring between a particle and a point in space. On a pinned particle it does nothing but change the reaction.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy)]
 pub struct PointSpring<T> {
     /// Which particle.
     pub particle: usize,
@@ -21,7 +21,15 @@ pub struct PointSpring<T> {
     pub target: Vec3<T>,
     /// k ≥ 0 N/m and l₀ ≥ 0 m.
     pub spring: Spring<T>,
+    /// Scratch of a step: H at its beginning, scaled.
     hessian: Hessian<T>,
+}
+
+/// Equal if they are the same spring; the scratch of a step does not count.
+impl<T: Real> PartialEq for PointSpring<T> {
+    fn eq(&self, other: &Self) -> bool {
+        (self.particle, self.target, self.spring) == (other.particle, other.target, other.spring)
+    }
 }
 
 impl<T: Real> PointSpring<T> {

@@ -13,7 +13,7 @@
 //! Source: the mass-spring lecture (linearly-implicit time integration); Baraff & Witkin 1998, §3.
 
 use super::Integrator;
-use crate::assembly::assemble;
+use crate::assembly::{assemble, prepare};
 use crate::error::StepError;
 use crate::force::{Force, Gravity};
 use crate::hessian::Scaling;
@@ -27,7 +27,7 @@ use crate::report::{IslandReport, Report};
 use crate::system::System;
 use crate::vec3::{self, Vec3};
 
-/// (M + hD − h²K)q̇⁺ = Mq̇ + hf, q⁺ = q + hq̇⁺, with the forces `F` besides the springs'.
+/// (M + hD − h²K̃)q̇⁺ = Mq̇ + hf, q⁺ = q + hq̇⁺, with the forces `F` besides the springs'.
 #[derive(Debug, Clone, Copy)]
 pub struct LinearlyImplicitEuler<T, F = ()> {
     dt: T,
@@ -41,8 +41,7 @@ impl<T: Real> LinearlyImplicitEuler<T> {
     /// A step of `dt` seconds with the default stopping rule and no forces but the springs'. The values are checked at
     /// each step.
     pub const fn new(dt: T) -> Self {
-        let stop = Stop { relative: T::DEFAULT_TOLERANCE, absolute: T::ZERO, max_iterations: 10_000 };
-        Self { dt, stop, forces: () }
+        Self { dt, stop: Stop::new(), forces: () }
     }
 }
 
@@ -82,8 +81,9 @@ impl<T: Real, F> LinearlyImplicitEuler<T, F> {
 }
 
 impl<T: Real, F: Force<T>> LinearlyImplicitEuler<T, F> {
-    /// Refuses what no step can be made with, and writes the pins' velocities over this step behind the unknowns.
-    fn prepare<L: Law>(
+    /// Refuses what no step can be made with, writes the pins' velocities over this step behind the unknowns, and asks
+    /// the forces.
+    fn begin<L: Law>(
         &self,
         parts: &mut Parts<'_, T, L>,
         motion: &[Motion<T>],
@@ -111,23 +111,30 @@ impl<T: Real, F: Force<T>> LinearlyImplicitEuler<T, F> {
                 return Err(StepError::Motion(m.particle));
             }
         }
-        Ok(Scaling { stiffness: h * h, damping: h })
+        let scaling = Scaling { stiffness: h * h, damping: h };
+        prepare(parts, &self.forces, scaling);
+        Ok(scaling)
     }
 
     /// Assembles each island's system at the present state and shows it with its right side b and its μ, without
     /// solving or moving anything: A Δq̇ = b. For export, tests and comparison with other solvers.
+    ///
+    /// # Errors
+    /// As for a step: dt, a tolerance, a force or a motion is not valid.
     pub fn inspect<L: Law>(
         &mut self,
         mut parts: Parts<'_, T, L>,
         motion: &[Motion<T>],
         mut visit: impl FnMut(&System<'_, T, F>, &[Vec3<T>], &[T]),
     ) -> Result<(), StepError> {
-        let scaling = self.prepare(&mut parts, motion)?;
+        let scaling = self.begin(&mut parts, motion)?;
         for k in 0..parts.islands.len() {
             let Some(mut island) = parts.island(k) else { continue };
-            assemble::<T, F, L>(&mut island, &mut self.forces, self.dt, scaling);
+            let assembled = assemble::<T, F, L>(&mut island, &mut self.forces, self.dt, scaling)?;
             let IslandParts { rows, pairs, anchors, work: Work { b, inertia, mu, hessian, .. }, .. } = island;
-            visit(&System::new(rows, [pairs, anchors], inertia, hessian, &self.forces), b, mu);
+            let system =
+                System::new(rows, [pairs, anchors], inertia, hessian, &self.forces, assembled.points);
+            visit(&system, b, mu);
         }
         Ok(())
     }
@@ -140,14 +147,15 @@ impl<T: Real, F: Force<T>> Integrator<T> for LinearlyImplicitEuler<T, F> {
         motion: &[Motion<T>],
         watch: &mut impl FnMut(&IslandReport<T>),
     ) -> Result<Report<T>, StepError> {
-        let scaling = self.prepare(&mut parts, motion)?;
+        let scaling = self.begin(&mut parts, motion)?;
         let mut report = Report::new(parts.spring_ends.len() - parts.edges);
         for k in 0..parts.islands.len() {
             let Some(mut island) = parts.island(k) else { continue };
-            let assembled = assemble::<T, F, L>(&mut island, &mut self.forces, self.dt, scaling);
+            let assembled = assemble::<T, F, L>(&mut island, &mut self.forces, self.dt, scaling)?;
             let IslandParts { rows, pairs, anchors, x, work, .. } = island;
             let Work { r, b, p, y, inertia, mu, block, hessian } = work;
-            let system = System::new(rows, [pairs, anchors], inertia, hessian, &self.forces);
+            let system =
+                System::new(rows, [pairs, anchors], inertia, hessian, &self.forces, assembled.points);
             let jacobi = Jacobi::new(&system, block);
             for weight in mu.iter_mut() {
                 *weight = T::ONE / *weight;

@@ -122,7 +122,7 @@ impl<T: Real + Display> Simulation<T> {
     /// Energies at a time, J.
     pub fn energy(&self, time: f64) -> Energy {
         let springs = self.scene.springs();
-        let (kinetic, potential) = (springs.kinetic().to_f64(), springs.potential().to_f64());
+        let (kinetic, potential) = (springs.kinetic_energy().to_f64(), springs.potential_energy().to_f64());
         let gravity = self.euler.forces.potential_energy(self.scene.state()).to_f64();
         Energy { time, kinetic, springs: potential, gravity, total: kinetic + potential + gravity }
     }

@@ -113,8 +113,8 @@ macro_rules! entry_points {
             j: usize,
         ) -> $t {
             let springs = s.springs();
-            let mut sum = springs.kinetic() + springs.potential() + springs.lagrangian();
-            sum += springs.kinetic_of(j) + springs.potential_of(j) + springs.tension_of(j);
+            let mut sum = springs.kinetic_energy() + springs.potential_energy() + springs.lagrangian();
+            sum += springs.kinetic_energy_of(j) + springs.potential_energy_of(j) + springs.tension_of(j);
             sum += springs.length_of(j).unwrap_or(0.0) + springs.strain_of(j).unwrap_or(0.0);
             sum += springs.stretch_factor_of(j).unwrap_or(0.0);
             springs.add_force(y);
