@@ -55,7 +55,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         let report = scene.step(&mut euler)?;
         let now = energy(&scene);
         println!(
-            "  step {n}: x = {:.12} m, E falls by {:.15} (theory 1/(1 + h²ω²) = {:.15}), solve exact to {:.0e} J",
+            "  step {n}: x = {:.12} m, E falls to {:.15} of itself (theory 1/(1 + h²ω²) = {:.15}), solve exact to {:.0e} J",
             scene.positions()[mass][0],
             now / before,
             1.0 / (1.0 + dt * dt),

@@ -31,8 +31,8 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
             let feel = rope.reaction(0, &euler.forces).unwrap_or_default();
             let tip = rope.positions()[LINKS];
             println!(
-                "t = {:.2} s  tip ({:+.3}, {:+.3}) m  hand holds ({:+.3}, {:+.3}) N  top link {:.3} N  {:2} iterations, \
-                 error at most {:.1e} J",
+                "t = {:.2} s  tip ({:+.3}, {:+.3}) m  hand holds ({:+.3}, {:+.3}) N (its own bead too), top link {:.3} N  \
+                 {:2} iterations{}, error at most {:.1e} J",
                 tick as f32 * DT,
                 tip[0],
                 tip[1],
@@ -40,6 +40,7 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
                 feel[1],
                 rope.springs().tension_of(0),
                 report.iterations,
+                if report.capped > 0 { " (the budget)" } else { "" },
                 report.upper,
             );
         }

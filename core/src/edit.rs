@@ -14,6 +14,9 @@ use crate::vec3::{self, Vec3};
 
 impl<M: Memory> MassSpring<M> {
     /// Adds a free particle at rest; answers its index. Position in m, mass in kg, positive.
+    ///
+    /// # Errors
+    /// [`EditError::NotFinite`], [`EditError::Mass`], [`EditError::ParticlesFull`].
     pub fn particle(&mut self, position: Vec3<M::Real>, mass: M::Real) -> Result<usize, EditError> {
         let i = self.network.mass.len();
         if !vec3::is_finite(position) {
@@ -42,6 +45,9 @@ impl<M: Memory> MassSpring<M> {
     }
 
     /// Joins two particles by a spring whose rest length is their present distance; answers its index.
+    ///
+    /// # Errors
+    /// [`EditError::NoParticle`], [`EditError::SameEnds`], [`EditError::Stiffness`], [`EditError::SpringsFull`].
     pub fn spring(&mut self, a: usize, b: usize, stiffness: M::Real) -> Result<usize, EditError> {
         for end in [a, b] {
             self.exists(end)?;
@@ -52,6 +58,9 @@ impl<M: Memory> MassSpring<M> {
     }
 
     /// Joins two particles by a spring of given stiffness (N/m) and rest length (m); answers its index.
+    ///
+    /// # Errors
+    /// As [`MassSpring::spring`], and [`EditError::RestLength`].
     pub fn spring_with(&mut self, a: usize, b: usize, spring: Spring<M::Real>) -> Result<usize, EditError> {
         self.join(Ends { a, b, cable: false, broken: false }, spring)
     }
@@ -82,6 +91,9 @@ impl<M: Memory> MassSpring<M> {
 
     /// Pins a particle where it is: its velocity becomes 0 (also if it was a moving pin), it is no unknown any more, and
     /// rests unless a step is told its motion.
+    ///
+    /// # Errors
+    /// [`EditError::NoParticle`].
     pub fn pin(&mut self, i: usize) -> Result<(), EditError> {
         let slot = self.network.slot.get_mut(i).ok_or(EditError::NoParticle(i))?;
         if *slot & MARK == 0 {
@@ -95,6 +107,9 @@ impl<M: Memory> MassSpring<M> {
     }
 
     /// Releases a pinned particle; it goes on with the velocity it had as a pin (0 if it rested).
+    ///
+    /// # Errors
+    /// [`EditError::NoParticle`], [`EditError::NotPinned`].
     pub fn release(&mut self, i: usize) -> Result<(), EditError> {
         let slot = self.network.slot.get_mut(i).ok_or(EditError::NoParticle(i))?;
         if *slot & MARK == 0 {
@@ -111,6 +126,9 @@ impl<M: Memory> MassSpring<M> {
     }
 
     /// Breaks a spring for good: no force, no energy, no place in any island. Indices of the others stay.
+    ///
+    /// # Errors
+    /// [`EditError::NoSpring`], [`EditError::Broken`].
     pub fn break_spring(&mut self, j: usize) -> Result<(), EditError> {
         self.unbroken(j)?;
         if let Some(pair) = self.network.ends.get_mut(j) {
@@ -123,6 +141,9 @@ impl<M: Memory> MassSpring<M> {
     }
 
     /// Changes k of a spring, N/m.
+    ///
+    /// # Errors
+    /// [`EditError::NoSpring`], [`EditError::Broken`], [`EditError::Stiffness`].
     pub fn set_stiffness(&mut self, j: usize, stiffness: M::Real) -> Result<(), EditError> {
         self.unbroken(j)?;
         valid_stiffness(j, stiffness)?;
@@ -131,6 +152,9 @@ impl<M: Memory> MassSpring<M> {
     }
 
     /// Changes l₀ of a spring, m.
+    ///
+    /// # Errors
+    /// [`EditError::NoSpring`], [`EditError::Broken`], [`EditError::RestLength`].
     pub fn set_rest_length(&mut self, j: usize, rest_length: M::Real) -> Result<(), EditError> {
         self.unbroken(j)?;
         valid_rest_length(j, rest_length)?;
@@ -139,6 +163,9 @@ impl<M: Memory> MassSpring<M> {
     }
 
     /// Changes the mass of a particle, kg. Its velocity stays.
+    ///
+    /// # Errors
+    /// [`EditError::NoParticle`], [`EditError::Mass`].
     pub fn set_mass(&mut self, i: usize, mass: M::Real) -> Result<(), EditError> {
         self.exists(i)?;
         valid_mass(i, mass)?;
@@ -148,6 +175,9 @@ impl<M: Memory> MassSpring<M> {
 
     /// Puts a particle (pinned or free) somewhere else at once, m. To move a pin *over* a step see
     /// [`MassSpring::step_moving`].
+    ///
+    /// # Errors
+    /// [`EditError::NoParticle`], [`EditError::NotFinite`].
     pub fn set_position(&mut self, i: usize, position: Vec3<M::Real>) -> Result<(), EditError> {
         self.exists(i)?;
         if !vec3::is_finite(position) {
@@ -158,6 +188,9 @@ impl<M: Memory> MassSpring<M> {
     }
 
     /// Sets the velocity of a free particle, m/s.
+    ///
+    /// # Errors
+    /// [`EditError::NoParticle`], [`EditError::Pinned`], [`EditError::NotFinite`].
     pub fn set_velocity(&mut self, i: usize, velocity: Vec3<M::Real>) -> Result<(), EditError> {
         self.exists(i)?;
         if self.is_pinned(i) {
@@ -171,6 +204,9 @@ impl<M: Memory> MassSpring<M> {
     }
 
     /// Gives a free particle an impulse, N·s: q̇ += impulse/m.
+    ///
+    /// # Errors
+    /// As [`MassSpring::set_velocity`].
     pub fn impulse(&mut self, i: usize, impulse: Vec3<M::Real>) -> Result<(), EditError> {
         self.exists(i)?;
         let (Some(m), Some(v)) = (self.network.mass.get(i), self.network.velocity.get(i)) else {
@@ -195,6 +231,9 @@ impl<M: Memory> MassSpring<M> {
 
 impl<M: Memory<Law = Mixed>> MassSpring<M> {
     /// Joins two particles by a cable: a spring that only pulls.
+    ///
+    /// # Errors
+    /// As [`MassSpring::spring_with`].
     pub fn cable(&mut self, a: usize, b: usize, spring: Spring<M::Real>) -> Result<usize, EditError> {
         self.join(Ends { a, b, cable: true, broken: false }, spring)
     }

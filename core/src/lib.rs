@@ -1,7 +1,7 @@
 #![doc = include_str!("../README.md")]
 #![no_std]
 #![forbid(unsafe_code)]
-#![warn(clippy::indexing_slicing)]
+#![warn(clippy::indexing_slicing, clippy::missing_errors_doc)]
 
 // From the ground up, one idea per file, named after the thing in the lecture.
 mod lanes;

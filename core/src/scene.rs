@@ -16,7 +16,8 @@ use crate::real::Real;
 use crate::report::{IslandReport, Report};
 use crate::vec3::Vec3;
 
-/// Up to `N` particles and `S` springs in arrays, to be placed in a `static`.
+/// Up to `N` particles and `S` springs in arrays, to be placed in a `static`: 148 bytes per particle and 44 per spring in
+/// f32, 268 and 68 in f64, and the lengths of the lists.
 pub type Scene<T, const N: usize, const S: usize, L = Hookean> = MassSpring<Fixed<T, N, S, L>>;
 
 /// A scene in two borrowed buffers of any size.
@@ -180,12 +181,19 @@ impl<'a, T: Real, L: crate::Law> SceneIn<'a, T, L> {
 }
 
 impl<M: Memory> MassSpring<M> {
-    /// Advances by one step; pins rest. On an error nothing has changed.
+    /// Advances by one step; pins rest. Cost: one assembly and one solve per island; after a change of pins or springs
+    /// also the islands, O(particles + springs·log).
+    ///
+    /// # Errors
+    /// [`StepError`], and then nothing has changed but the scratch of forces.
     pub fn step<I: Integrator<M::Real>>(&mut self, integrator: &mut I) -> Result<Report<M::Real>, StepError> {
         integrator.advance(self.parts(), &[], &mut |_| {})
     }
 
     /// Advances by one step over which some pins move.
+    ///
+    /// # Errors
+    /// [`StepError`], and then nothing has changed but the scratch of forces.
     pub fn step_moving<I: Integrator<M::Real>>(
         &mut self,
         integrator: &mut I,
@@ -196,6 +204,9 @@ impl<M: Memory> MassSpring<M> {
 
     /// Advances by one step and shows the report of each island on the way, before it is known whether all of them can
     /// be advanced: after an error the reports seen are of a step that was not made.
+    ///
+    /// # Errors
+    /// [`StepError`], and then nothing has changed but the scratch of forces.
     pub fn step_watched<I: Integrator<M::Real>>(
         &mut self,
         integrator: &mut I,

@@ -47,6 +47,9 @@ impl<M: Growable> Snapshot<M> {
 
 impl<M: Memory> MassSpring<M> {
     /// Copies the scene into a snapshot; refused, without change, if it does not fit.
+    ///
+    /// # Errors
+    /// [`EditError::Snapshot`].
     pub fn save<N: Memory<Real = M::Real, Law = M::Law>>(
         &self,
         snapshot: &mut Snapshot<N>,
@@ -57,6 +60,9 @@ impl<M: Memory> MassSpring<M> {
 
     /// Makes the scene what it was when the snapshot was taken; refused, without change, if it does not fit. Particles
     /// and springs added since are gone.
+    ///
+    /// # Errors
+    /// [`EditError::Snapshot`].
     pub fn restore<N: Memory<Real = M::Real, Law = M::Law>>(
         &mut self,
         snapshot: &Snapshot<N>,

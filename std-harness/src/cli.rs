@@ -159,11 +159,23 @@ pub fn parse(arguments: impl IntoIterator<Item = String>) -> Result<Command, Res
             Ok(Cli { command: Some(command) }) => Ok(command),
             _ => Err(Err(InputError::new("nothing to do; try hooke --help"))),
         },
+        Err(error) if error.kind() == ErrorKind::DisplayHelp && arguments.len() == 2 => {
+            Err(Ok(format!("{}\n\nOptions of run:\n{}", error.render(), run_options())))
+        }
         Err(error) if matches!(error.kind(), ErrorKind::DisplayHelp | ErrorKind::DisplayVersion) => {
             Err(Ok(error.render().to_string()))
         }
         Err(error) => Err(Err(one_line(&error))),
     }
+}
+
+/// The options of `run`, as its own help shows them.
+fn run_options() -> String {
+    let mut cli = Cli::command();
+    let help = cli.find_subcommand_mut("run").map(|run| run.render_help().to_string()).unwrap_or_default();
+    let options = help.find("Time:").map_or("", |from| &help[from..]);
+    let end = options.find("Scenes:").unwrap_or(options.len());
+    options[..end].trim_end().to_string() + "\n"
 }
 
 /// The names of all commands.

@@ -26,10 +26,7 @@ fn main() -> ExitCode {
         Command::Run(args) => match run::run(&args) {
             Ok(summary) => said(&summary),
             Err(RunError::Input(error)) => refused(&error),
-            Err(RunError::Failed(message)) => {
-                eprintln!("hooke: {message}");
-                ExitCode::from(1)
-            }
+            Err(RunError::Failed(message)) => complained(&message, 1),
         },
         Command::Info(args) => match mesh::info(&args.mesh) {
             Ok(info) if args.json => match serde_json::to_string_pretty(&info) {
@@ -50,6 +47,11 @@ fn said(text: &str) -> ExitCode {
 
 /// Bad input: one line, exit code 2, nothing written.
 fn refused(error: &InputError) -> ExitCode {
-    eprintln!("hooke: {error}");
-    ExitCode::from(2)
+    complained(&error.to_string(), 2)
+}
+
+/// One line on stderr; that nobody can read it is no reason for a panic (`eprintln!` would).
+fn complained(message: &str, code: u8) -> ExitCode {
+    let _ = writeln!(std::io::stderr(), "hooke: {message}");
+    ExitCode::from(code)
 }

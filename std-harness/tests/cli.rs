@@ -332,14 +332,14 @@ fn bad_options_and_names_are_refused() {
         ("run cloth:1", vec!["'1'"]),
         ("run cloth:-2", vec!["'-2'"]),
         ("run cloth:", vec!["'cloth:'", "cloth:N"]),
-        ("run cloth", vec!["'cloth'", "cloth:N"]),
+        ("run cloth", vec!["'cloth:3'", "cloth:N"]),
         ("run cloth:abc", vec!["'abc'"]),
         ("run spring:3", vec!["'spring:3'"]),
         ("run lattice:3x3", vec!["'3x3'", "lattice:AxBxC"]),
         ("run lattice:0x3x3", vec!["'0'"]),
         ("run lattice:1x1x1", vec!["at least 2"]),
         ("run lattice:99999x99999x99999", vec!["99999x99999x99999", "most"]),
-        ("run clot:32", vec!["'clot:32'", "'cloth'"]),
+        ("run clot:32", vec!["'clot:32'", "'cloth:32'"]),
         ("run cloth:4 chain:4", vec!["'chain:4'"]),
         ("rnu", vec!["'rnu'", "'run'"]),
         ("cloth:4", vec!["'cloth:4'", "hooke run cloth:4"]),
@@ -436,4 +436,32 @@ fn a_step_that_fails_says_so_and_keeps_what_was_computed() {
     for name in ["motion.pvd", "frame_00002.vtp", "energy.csv", "energy.svg", "picture.png"] {
         assert!(folder.path("o").join(name).exists(), "{name} in {:?}", folder.names());
     }
+}
+
+#[test]
+fn no_output_takes_the_place_of_an_input_or_of_another_output() {
+    let folder = Scratch::new();
+    folder.write("t.obj", TRIANGLE);
+    folder.write("t.toml", "mesh = \"t.obj\"\n");
+    for line in [
+        "run t.obj --final t.obj",
+        "run t.obj --json ./t.obj",
+        "run t.toml --final t.toml",
+        "run t.toml --final t.obj",
+        "run t.obj --out o --final o/energy.csv",
+        "run t.obj --final f --json ./f",
+    ] {
+        let named = line.rsplit(' ').next().unwrap();
+        folder.refuses(line, &[named]).unwrap();
+    }
+    folder.ok("run t.obj --final f.csv --json f.json --quiet");
+}
+
+#[test]
+fn a_duration_that_is_no_whole_number_of_steps_is_rounded_up_and_said() {
+    let folder = Scratch::new();
+    let summary = folder.ok("run pair --dt 0.4 --seconds 1 --json f.json").stdout;
+    assert!(summary.contains("the last one ends at 1.2"), "{summary}");
+    let whole = folder.ok("run pair --dt 0.1 --seconds 0.3 --json f.json").stdout;
+    assert!(!whole.contains("whole number"), "{whole}");
 }

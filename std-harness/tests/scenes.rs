@@ -280,7 +280,7 @@ fn what_is_wrong_in_a_file_is_named_with_its_line() {
         ("[bending]\nstiffness = 1", "2: [bending] needs a mesh"),
         ("[bending]", "2: missing field `stiffness`"),
         ("pin = \"min-z:3\"", "2: unknown pin rule 'min-z:3'; did you mean 'min-y'?"),
-        ("pin = \"min-y:1e9\"", "2: the pin rule pins all 9 particles"),
+        ("pin = \"min-y:1e9\"", "2: this pins all 9 particles"),
         ("pins = [0, 9]", "2: there is no particle 9; ids run from 0 to 8"),
         ("pins = [\n0,\n-1]", "4: invalid value: integer `-1`"),
         ("pins = [0, 1, 2, 3, 4, 5, 6, 7, 8]", "all 9 particles are pinned"),
@@ -350,7 +350,7 @@ fn a_file_without_a_usable_source_is_refused() {
         ("dt = 0.1\n".into(), vec!["s.toml: no particles: say mesh, generator or [[particle]]"]),
         ("\n\nmesh = \"none.obj\"\n".into(), vec!["s.toml:3: ", "none.obj: cannot read"]),
         ("mesh = \"broken.obj\"\n".into(), vec!["s.toml:1: broken.obj:4: ", "vertex 2"]),
-        ("generator = \"clot:3\"\n".into(), vec!["s.toml:1: ", "'clot:3'", "'cloth'"]),
+        ("generator = \"clot:3\"\n".into(), vec!["s.toml:1: ", "'clot:3'", "'cloth:3'"]),
         ("generator = \"cloth:1\"\n".into(), vec!["s.toml:1: ", "'1' is not a whole number of at least 2"]),
         (
             "mesh = \"apart.mesh\"\n[mass]\ndensity = 1\n".into(),

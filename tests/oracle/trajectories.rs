@@ -129,3 +129,38 @@ fn cloth_32_at_small_steps_follows_the_oracle_and_is_certified_throughout() {
         follows_the_oracle("cloth:32", &generate::cloth(32), 0.001, steps, 1e-12, allowed::SMALL_STEPS);
     assert_eq!(clamped, 0);
 }
+
+/// The reference scene `bunny`, from the user's file; the blobs above are its twins on data of our own.
+#[test]
+fn the_bunny_follows_the_sparse_oracle_where_its_mesh_is_at_hand() {
+    let file = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join("../../shared/meshes/coarse_bunny.mesh");
+    if !file.exists() {
+        println!("skipped: there is no shared/meshes/coarse_bunny.mesh beside the project");
+        return;
+    }
+    let mesh = hooke_harness::mesh::load(&file).unwrap();
+    let lowest = mesh.points.iter().map(|x| x[1]).fold(f64::INFINITY, f64::min);
+    let n = mesh.points.len();
+    let spring = |[a, b]: [usize; 2]| {
+        let l0 = hooke_tests::data::distance(mesh.points[a], mesh.points[b]);
+        hooke_tests::data::SpringData { a, b, k: 1e5, l0, c: 0.0 }
+    };
+    let mut data = SceneData {
+        position: mesh.points.clone(),
+        velocity: vec![[0.0; 3]; n],
+        mass: vec![1.0; n],
+        pinned: mesh.points.iter().map(|x| x[1] <= lowest + 3.0).collect(),
+        springs: mesh.edges().into_iter().map(spring).collect(),
+        gravity: [0.0, -9.8, 0.0],
+        ..SceneData::default()
+    };
+    let free = data.pinned.iter().filter(|p| !**p).count();
+    assert_eq!((n, data.springs.len(), free), (699, 3521, 682));
+    let steps = if cfg!(debug_assertions) { 2 } else { 20 };
+    for kick in [0.0, 50.0] {
+        for (v, pinned) in data.velocity.iter_mut().zip(&data.pinned) {
+            *v = if *pinned { [0.0; 3] } else { [kick, 0.0, 0.0] };
+        }
+        assert_eq!(follows_the_oracle("bunny", &data, 0.005, steps, 1e-12, allowed::BUNNY), 0);
+    }
+}

@@ -75,3 +75,5 @@ pub const EQUIVARIANT_STEP: f64 = 1e-14;
 pub const DENSE_ENERGY: f64 = 1e-23;
 /// A row of the operator against its blocks, units of u·Σ|block·x|: 6u per term, sums of up to 60 (derived).
 pub const OPERATOR_ROW: f64 = 80.0;
+/// The bunny, 190 m wide, m: the contract of the reference scene.
+pub const BUNNY: f64 = 1e-9;

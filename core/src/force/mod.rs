@@ -67,6 +67,9 @@ pub trait Force<T: Real> {
 
     /// Refuses values that are infinite, NaN or of the wrong sign, and particles that do not exist. Called before
     /// anything of a step is computed.
+    ///
+    /// # Errors
+    /// [`StepError::Field`], [`StepError::Force`], [`StepError::Damping`], [`StepError::NoParticle`].
     fn check(&self, particles: usize, springs: usize) -> Result<(), StepError>;
 
     /// f += the force on each of the rows, N, drag and damping left out (they are implicit).

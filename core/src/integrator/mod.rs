@@ -15,6 +15,9 @@ use crate::report::{IslandReport, Report};
 pub trait Integrator<T: Real> {
     /// Advances all of a scene by one step, or fails and leaves it untouched. `watch` sees each island's report.
     /// Called by [`crate::MassSpring::step`] and its relatives, which prepare the parts.
+    ///
+    /// # Errors
+    /// [`StepError`], and then nothing has changed but the scratch of forces.
     fn advance<L: Law>(
         &mut self,
         parts: Parts<'_, T, L>,

@@ -56,7 +56,7 @@ fn run_in<T: Real + Display>(plan: &Plan) -> Result<String, RunError> {
         let report = simulation.step(step);
         let took = began.elapsed();
         match report {
-            Ok(report) => outcome.add(&report, took),
+            Ok(report) => outcome.add(&simulation, &report, took),
             Err(error) => {
                 let time = plan.dt * (step - 1) as f64;
                 outcome.failure = Some(Failure { step, time, error });

@@ -67,8 +67,8 @@ pub struct Outcome {
     pub workspace_bytes: usize,
     /// Did the harness renumber the particles?
     pub renumbered: bool,
-    /// Speed of the fastest particle at the end, m/s.
-    pub speed_end: f64,
+    /// Speed of the fastest particle at the end of any step, m/s.
+    pub speed_max: f64,
     /// Which step failed, if one did.
     #[serde(skip)]
     pub failure: Option<Failure>,
@@ -132,7 +132,7 @@ impl Outcome {
             error_lower_j: 0.0,
             workspace_bytes: simulation.workspace_bytes(),
             renumbered: false,
-            speed_end: 0.0,
+            speed_max: simulation.fastest().1,
             failure: None,
             energy,
             momentum_start: plan.model.is_free_of_force().then(|| simulation.momentum()),
@@ -141,7 +141,8 @@ impl Outcome {
     }
 
     /// Adds a step.
-    pub fn add<T: Real>(&mut self, report: &Report<T>, took: Duration) {
+    pub fn add<T: Real + Display>(&mut self, simulation: &Simulation<T>, report: &Report<T>, took: Duration) {
+        self.speed_max = self.speed_max.max(simulation.fastest().1);
         self.steps += 1;
         self.iterations += u64::from(report.iterations);
         self.iterations_max = self.iterations_max.max(u64::from(report.iterations));
@@ -166,7 +167,6 @@ impl Outcome {
         }
         self.energy = simulation.energy(self.steps as f64 * self.dt);
         self.energy_end = self.energy.total;
-        self.speed_end = simulation.fastest().1;
         self.momentum_drift = self.momentum_start.map(|start| {
             let now = simulation.momentum();
             (0..3).map(|c| (now[c] - start[c]).powi(2)).sum::<f64>().sqrt()

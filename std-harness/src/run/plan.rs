@@ -7,6 +7,7 @@ use crate::cli::{Precision, RunArgs};
 use crate::error::InputError;
 use crate::nearest;
 use crate::output::safe;
+use crate::run::recorder::FILES;
 use crate::scene::{Model, source};
 
 /// The most steps a run may have.
@@ -37,6 +38,8 @@ pub struct Plan {
     pub final_csv: Option<PathBuf>,
     /// Outcome as JSON.
     pub json: Option<PathBuf>,
+    /// The files that the scene was read from.
+    pub inputs: Vec<PathBuf>,
     /// No progress, no summary.
     pub quiet: bool,
 }
@@ -73,7 +76,7 @@ impl Plan {
         known("integrator", &args.integrator, &["euler"])?;
         known("solver", &args.solver, &["jacobi"])?;
         let loaded = source::load(args.scene.as_deref().unwrap_or("curtain"))?;
-        let (mut model, wanted) = (loaded.model, loaded.outputs);
+        let (mut model, wanted, inputs) = (loaded.model, loaded.outputs, loaded.files);
         override_model(&mut model, args)?;
 
         let dt = positive("--dt", args.dt.unwrap_or(model.dt))?;
@@ -88,6 +91,14 @@ impl Plan {
             return Err(InputError::new(format!(
                 "{steps:e} steps of {dt:?} s are too many; the most is {MOST_STEPS:e}"
             )));
+        }
+        if let (None, Some(seconds)) = (args.steps, args.seconds)
+            && steps * dt > seconds * (1.0 + 1e-6)
+        {
+            let end = steps * dt;
+            model
+                .notes
+                .push(format!("{seconds} s is no whole number of steps: the last one ends at {end} s"));
         }
         let tolerance = args.tolerance.map(|r| not_negative("--tolerance", r)).transpose()?;
         let absolute = not_negative("--absolute", args.absolute.unwrap_or(0.0))?;
@@ -109,6 +120,7 @@ impl Plan {
             fps,
             final_csv,
             json,
+            inputs,
             quiet: args.quiet,
         })
     }
@@ -116,11 +128,7 @@ impl Plan {
     /// Makes sure that every output can be written, before the first step.
     pub fn prepare_outputs(&self) -> Result<(), InputError> {
         let files: Vec<&Path> = [&self.final_csv, &self.json].into_iter().flatten().map(|f| &**f).collect();
-        if let [a, b] = files[..]
-            && a == b
-        {
-            return Err(InputError::in_file(a, "--final and --json name the same file"));
-        }
+        self.no_output_takes_anothers_place(&files)?;
         // A file may lie in the folder that --out is about to make; everything else is checked before it is made.
         let dir = self.out.as_deref();
         let (inside, beside): (Vec<&Path>, Vec<&Path>) =
@@ -130,10 +138,41 @@ impl Plan {
         inside.into_iter().try_for_each(safe::prepare_file)
     }
 
+    /// Refuses two outputs in one file, and an output in the place of an input.
+    fn no_output_takes_anothers_place(&self, files: &[&Path]) -> Result<(), InputError> {
+        let mut taken: Vec<(PathBuf, &str)> =
+            self.inputs.iter().map(|input| (resolved(input), "the scene is read from this file")).collect();
+        let own = self.out.iter().flat_map(|dir| FILES.map(|name| dir.join(name)));
+        taken.extend(own.map(|file| (resolved(&file), "--out writes this file itself")));
+        for file in files {
+            let place = resolved(file);
+            if let Some((_, why)) = taken.iter().find(|(path, _)| *path == place) {
+                return Err(InputError::in_file(
+                    file,
+                    format!("cannot write here: {why}; choose another name"),
+                ));
+            }
+            taken.push((place, "--final and --json name the same file"));
+        }
+        Ok(())
+    }
+
     /// Is there a frame after this step?
     pub fn is_frame(&self, step: u64) -> bool {
         let frames = |step: u64| (step as f64 * self.dt * self.fps + 1e-6).floor();
         step == self.steps || step == 0 || frames(step) > frames(step - 1)
+    }
+}
+
+/// A path that is the same for all spellings of one file, which need not exist.
+fn resolved(path: &Path) -> PathBuf {
+    if let Ok(path) = path.canonicalize() {
+        return path;
+    }
+    let parent = path.parent().filter(|parent| !parent.as_os_str().is_empty()).unwrap_or(Path::new("."));
+    match (parent.canonicalize(), path.file_name()) {
+        (Ok(parent), Some(name)) => parent.join(name),
+        _ => path.to_path_buf(),
     }
 }
 
@@ -149,7 +188,8 @@ fn override_model(model: &mut Model, args: &RunArgs) -> Result<(), InputError> {
         model.gravity = g;
     }
     if let Some(rule) = &args.pin {
-        model.pinned = rule.apply(&model.position)?;
+        model.pinned =
+            rule.apply(&model.position).map_err(|e| InputError::new(format!("--pin: {}", e.message)))?;
         // A path belongs to pins; those that the new rule lets go have none.
         for moving in &mut model.moving {
             moving.particles.retain(|i| model.pinned[*i]);

@@ -13,6 +13,9 @@ use crate::output::picture::Strip;
 use crate::output::vtk::Series;
 use crate::output::{Energy, Frame, plot, table};
 
+/// What a folder holds besides the frames.
+pub const FILES: [&str; 4] = ["motion.pvd", "energy.svg", "energy.csv", "picture.png"];
+
 /// Moments in the picture strip.
 const MOMENTS: usize = 6;
 
@@ -76,12 +79,11 @@ impl<'a> Recorder<'a> {
     /// Writes plot, table and picture. Also after a failed step: what there was is kept.
     pub fn finish<T: Real + Display>(&mut self, _: &Simulation<T>) -> io::Result<()> {
         let Some(open) = &self.open else { return Ok(()) };
-        let file = |name: &str| open.dir.join(name);
-        let [plot_file, table_file, picture] = ["energy.svg", "energy.csv", "picture.png"].map(file);
+        let [series, plot_file, table_file, picture] = FILES.map(|name| open.dir.join(name));
         plot::write(&plot_file, &self.plan.model.name, &open.energies)?;
         table::write_energy(&table_file, &open.energies)?;
         open.strip.save(&picture)?;
-        self.written = vec![file("motion.pvd"), plot_file, table_file, picture];
+        self.written = vec![series, plot_file, table_file, picture];
         Ok(())
     }
 

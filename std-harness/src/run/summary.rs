@@ -24,6 +24,16 @@ fn count(n: usize, one: &str, many: &str) -> String {
     format!("{} {}", grouped(n as u128), if n == 1 { one } else { many })
 }
 
+/// Six significant digits, without an exponent where that is short.
+fn figure(x: f64) -> String {
+    let size = x.abs();
+    if size != 0.0 && !(1e-4..1e7).contains(&size) {
+        return format!("{x:.5e}");
+    }
+    let before = if size < 1.0 { 1 } else { size.log10().floor() as usize + 1 };
+    format!("{x:.*}", 6usize.saturating_sub(before).max(1))
+}
+
 /// The whole text, empty if the run is quiet.
 pub fn text(plan: &Plan, outcome: &Outcome, recorder: &Recorder<'_>) -> String {
     let mut s = String::new();
@@ -50,10 +60,14 @@ pub fn text(plan: &Plan, outcome: &Outcome, recorder: &Recorder<'_>) -> String {
         line("note", note.clone());
     }
     line("method", format!("linearly-implicit Euler, block-Jacobi PCG, {precision}"));
-    line(
-        "time",
-        format!("{} steps of {:.4} ms = {:.4} s", grouped(o.steps), o.dt * 1e3, o.dt * o.steps as f64),
-    );
+    if let Some(failure) = &o.failure {
+        line("failed", failure.to_string());
+    }
+    let made = count(o.steps as usize, "step", "steps");
+    line("time", format!("{made} of {:.4} ms = {:.4} s", o.dt * 1e3, o.dt * o.steps as f64));
+    if o.steps == 0 {
+        return s;
+    }
     line("took", format!("{:.2} s; {:.3} ms a step (median)", o.wall_s, o.step_ms));
     line(
         "solves",
@@ -66,14 +80,14 @@ pub fn text(plan: &Plan, outcome: &Outcome, recorder: &Recorder<'_>) -> String {
     line(
         "",
         format!(
-            "energy of the worst solve's error between {:.1e} and {:.1e} J",
+            "the worst is off by an energy between {:.1e} and {:.1e} J",
             o.error_lower_j, o.error_bound_j
         ),
     );
     let certified = o.steps - o.uncertified_steps;
     let clamped = match o.clamped {
         0 => "nothing clamped".into(),
-        n => format!("{} springs clamped in the others", grouped(n)),
+        n => format!("{} clamped in the others", count(n as usize, "spring", "springs")),
     };
     line(
         "projection",
@@ -81,26 +95,30 @@ pub fn text(plan: &Plan, outcome: &Outcome, recorder: &Recorder<'_>) -> String {
     );
     let mut skipped = Vec::new();
     if o.untouched_islands > 0 {
-        skipped.push(format!("{} island solves took no iteration", grouped(o.untouched_islands)));
+        let solves = count(o.untouched_islands as usize, "island solve", "island solves");
+        skipped.push(format!("{solves} took no iteration"));
     }
     if o.springs_skipped > 0 {
-        skipped.push(format!("{} springs needed by no island", grouped(o.springs_skipped)));
+        let springs = count(o.springs_skipped as usize, "spring", "springs");
+        skipped.push(format!("{springs} needed by no island"));
     }
     if !skipped.is_empty() {
         line("skipped", skipped.join("; "));
     }
-    for (steps, what) in [
-        (o.at_floor, "ended at the floor of their rounding: as exact as the precision allows"),
-        (o.capped_steps, "used up --max-iterations: see the bound above"),
-        (o.stalled_steps, "stalled above the floor: see the bound above"),
+    for (name, steps, what) in [
+        ("note", o.at_floor, "solved to the floor of rounding: as exact as the precision allows"),
+        ("attention", o.capped_steps, "used up --max-iterations: see the bound above"),
+        ("attention", o.stalled_steps, "stalled above the floor: see the bound above"),
     ] {
         if steps > 0 {
-            line("attention", format!("{} steps {what}", grouped(steps)));
+            line(name, format!("{} {what}", count(steps as usize, "step", "steps")));
         }
     }
     let e = &o.energy;
-    line("energy", format!("{:.6} J → {:.6} J", o.energy_start, o.energy_end));
-    line("", format!("kinetic {:.6}, springs {:.6}, gravity {:.6} J", e.kinetic, e.springs, e.gravity));
+    line("energy", format!("{} J → {} J", figure(o.energy_start), figure(o.energy_end)));
+    let parts = [e.kinetic, e.springs, e.gravity].map(figure);
+    line("", format!("kinetic {}, springs {}, gravity {} J", parts[0], parts[1], parts[2]));
+    line("fastest", format!("{} m/s", figure(o.speed_max)));
     if let Some(drift) = o.momentum_drift {
         line("momentum", format!("kept to {drift:.1e} kg m/s"));
     }

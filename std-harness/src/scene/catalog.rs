@@ -47,11 +47,11 @@ pub fn unknown(scene: &str) -> InputError {
     let name = scene.split(':').next().unwrap_or(scene);
     let names: Vec<&str> = NAMES.iter().map(|known| known.0).collect();
     let forms: Vec<&str> = NAMES.iter().map(|known| known.1).collect();
-    InputError::new(format!(
-        "unknown scene '{scene}'{}; it is neither a file nor one of {}",
-        nearest::suggestion(name, &names),
-        forms.join(", ")
-    ))
+    let size = &scene[name.len()..];
+    InputError::new(match nearest::nearest(name, &names) {
+        Some(near) => format!("unknown scene '{scene}'; did you mean '{near}{size}'?"),
+        None => format!("unknown scene '{scene}': neither a file nor one of {}", forms.join(", ")),
+    })
 }
 
 /// The sizes after the colon, each at least `least`, their product within [`MOST`].

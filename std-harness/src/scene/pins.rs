@@ -64,20 +64,18 @@ impl PinRule {
                 for id in ids {
                     *pinned.get_mut(*id).ok_or_else(|| {
                         let last = position.len().saturating_sub(1);
-                        InputError::new(format!(
-                            "pin rule: there is no vertex {id}; ids run from 0 to {last}"
-                        ))
+                        InputError::new(format!("there is no vertex {id} to pin; ids run from 0 to {last}"))
                     })? = true;
                 }
             }
         }
         let count = pinned.iter().filter(|p| **p).count();
         if count == 0 {
-            return Err(InputError::new("the pin rule pins nothing; say 'none' if that is meant"));
+            return Err(InputError::new("this pins nothing; say 'none' if that is meant"));
         }
         if count == pinned.len() {
             return Err(InputError::new(format!(
-                "the pin rule pins all {count} particles; nothing is left to move, so lower the distance or name fewer vertices"
+                "this pins all {count} particles and nothing is left to move, so lower the distance or name fewer vertices"
             )));
         }
         Ok(pinned)

@@ -14,6 +14,8 @@ pub struct Loaded {
     pub model: Model,
     /// What a scene file wants written; the command line wins.
     pub outputs: Outputs,
+    /// The files it was read from: no output may take their place.
+    pub files: Vec<PathBuf>,
 }
 
 /// Outputs that a scene file asks for.
@@ -31,7 +33,7 @@ pub struct Outputs {
 
 impl From<Model> for Loaded {
     fn from(model: Model) -> Self {
-        Self { model, outputs: Outputs::default() }
+        Self { model, outputs: Outputs::default(), files: Vec::new() }
     }
 }
 
@@ -48,5 +50,6 @@ pub fn load(scene: &str) -> Result<Loaded, InputError> {
     if path.extension().is_some_and(|x| x.eq_ignore_ascii_case("toml")) {
         return toml::load(scene, path);
     }
-    Ok(from_mesh::model(scene, &mesh::load(path)?).into())
+    let model = from_mesh::model(scene, &mesh::load(path)?);
+    Ok(Loaded { model, outputs: Outputs::default(), files: vec![path.to_path_buf()] })
 }

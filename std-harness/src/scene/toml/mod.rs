@@ -96,6 +96,8 @@ pub fn load(name: &str, file: &Path) -> Result<Loaded, InputError> {
     model.dt = scene.dt.map_or(model.dt, |h| h.0);
     model.seconds = scene.seconds.map_or(model.seconds, |t| t.0);
 
+    let mut files = vec![file.to_path_buf()];
+    files.extend(scene.mesh.as_ref().map(|mesh| beside(file, mesh.get_ref())));
     let wanted = scene.output;
     let outputs = Outputs {
         dir: wanted.dir,
@@ -103,7 +105,7 @@ pub fn load(name: &str, file: &Path) -> Result<Loaded, InputError> {
         final_csv: wanted.final_csv,
         json: wanted.json,
     };
-    Ok(Loaded { model, outputs })
+    Ok(Loaded { model, outputs, files })
 }
 
 /// The particles and, where the source has them, springs; the mesh too, if that is the source.
