@@ -40,6 +40,7 @@ flags=(-std=c99 -Wall -Wextra -Werror -pedantic -ffp-contract=off -O2 -Iinclude)
 
 # Unlike the libraries with overflow checks and assertions: the bits do not depend on that either.
 cargo run --quiet --target-dir "$target" --example rope >"$work/rust"
+same="Rust"
 if has gcc; then
     cargo build --quiet --release --lib --target-dir "$target"
     for name in rope errors; do
@@ -51,6 +52,7 @@ if has gcc; then
     done
     ! has g++ || g++ -std=c++11 -Wall -Wextra -Werror -pedantic -fsyntax-only -x c++ include/hooke.h
     diff "$work/rust" <(grep digest "$work/host") || { echo "c: C and Rust give different bits"; exit 1; }
+    same="$same = C here"
     grep -h errors: "$work/host"
     has valgrind && echo "c: valgrind sees no access out of place" || echo "c: skipped: valgrind"
 else
@@ -77,6 +79,7 @@ else
         done
     done
     diff "$work/rust" <(grep digest "$work/arm") || { echo "c: the Cortex-M4F gives different bits"; exit 1; }
+    same="$same = C on the Cortex-M4F"
     grep -h errors: "$work/arm"
     if arm-none-eabi-nm "$work"/*.elf | grep -E 'panicking|begin_unwind'; then echo "c: panics in the image"; exit 1; fi
     for t in f32 f64; do
@@ -89,4 +92,4 @@ else
         echo "c: rope $t on the Cortex-M4F: $bytes bytes of code and constants from the library"
     done
 fi
-sed 's/^/c: everywhere the same: /' "$work/rust"
+sed "s/^/c: $same: /" "$work/rust"
