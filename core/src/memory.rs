@@ -81,6 +81,11 @@ impl<'a, X> SliceList<'a, X> {
     pub fn new(buffer: &'a mut [X]) -> Self {
         Self { buffer, len: 0 }
     }
+
+    /// A list whose first `len` items are already in the slice; `None` if it has not so many.
+    pub(crate) fn filled(buffer: &'a mut [X], len: usize) -> Option<Self> {
+        if len <= buffer.len() { Some(Self { buffer, len }) } else { None }
+    }
 }
 
 impl<X> Deref for SliceList<'_, X> {

@@ -7,8 +7,9 @@
 use crate::real::Real;
 use crate::vec3::Vec3;
 
-/// Where a pinned particle is at the end of a step.
+/// Where a pinned particle is at the end of a step. Laid out as in C, so that a list of them from there need not be copied.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[repr(C)]
 pub struct Motion<T: Real> {
     /// Which particle; it must be pinned.
     pub particle: usize,

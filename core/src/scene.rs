@@ -104,17 +104,21 @@ impl<M: Growable> MassSpring<M> {
     }
 }
 
-/// Cuts `n` arrays of `W` off the front of a buffer.
-fn cut<'a, X, const W: usize>(buffer: &mut &'a mut [X], n: usize) -> Option<SliceList<'a, [X; W]>> {
+/// Cuts room for `n` arrays of `W` off the front of a buffer; the first `len` of them are in use.
+fn cut<'a, X, const W: usize>(
+    buffer: &mut &'a mut [X],
+    n: usize,
+    len: usize,
+) -> Option<SliceList<'a, [X; W]>> {
     let (front, rest) = core::mem::take(buffer).split_at_mut_checked(n.checked_mul(W)?)?;
     *buffer = rest;
-    Some(SliceList::new(front.as_chunks_mut().0))
+    SliceList::filled(front.as_chunks_mut().0, len)
 }
 
-fn cut_flat<'a, X>(buffer: &mut &'a mut [X], n: usize) -> Option<SliceList<'a, X>> {
+fn cut_flat<'a, X>(buffer: &mut &'a mut [X], n: usize, len: usize) -> Option<SliceList<'a, X>> {
     let (front, rest) = core::mem::take(buffer).split_at_mut_checked(n)?;
     *buffer = rest;
-    Some(SliceList::new(front))
+    SliceList::filled(front, len)
 }
 
 impl<'a, T: Real, L: crate::Law> SceneIn<'a, T, L> {
@@ -139,42 +143,87 @@ impl<'a, T: Real, L: crate::Law> SceneIn<'a, T, L> {
     /// # Ok::<(), Box<dyn std::error::Error>>(())
     /// ```
     pub fn in_buffers(
+        reals: &'a mut [T],
+        words: &'a mut [u32],
+        particles: usize,
+        springs: usize,
+    ) -> Option<Self> {
+        Self::attach(reals, words, particles, springs, [0; 6])
+    }
+
+    /// How far the buffers are filled: particles, springs, islands, free particles, springs with a free end, and
+    /// whether the last three belong to the present pins and springs (1) or are to be found anew (0). All that a scene
+    /// knows besides what is in its buffers; [`SceneIn::attach`] takes it back.
+    pub fn counts(&self) -> [u32; 6] {
+        let Islands { count, free, edges, current, .. } = &self.islands;
+        [self.network.mass.len(), self.network.ends.len(), *count, *free, *edges, usize::from(*current)]
+            .map(|n| n as u32)
+    }
+
+    /// The scene that `buffers` held when [`SceneIn::counts`] answered `counts`: for a caller who can keep buffers but
+    /// no Rust value between calls. The buffers may have moved meanwhile: a scene keeps indices, never addresses.
+    ///
+    /// `None` if the buffers are too small or the counts contradict each other. What the buffers hold is not looked
+    /// at: other contents make another scene, perhaps a senseless one, whose steps fail or give senseless numbers.
+    ///
+    /// ```
+    /// use hooke::{LinearlyImplicitEuler, SceneIn};
+    /// let (mut reals, mut words, mut euler) = ([0.0; 66], [0; 19], LinearlyImplicitEuler::new(0.01));
+    /// let mut scene = SceneIn::<f64>::in_buffers(&mut reals, &mut words, 2, 1).ok_or("too small")?;
+    /// let (a, b) = (scene.particle([0.0; 3], 1.0)?, scene.particle([1.0, 0.0, 0.0], 1.0)?);
+    /// scene.spring(a, b, 100.0)?;
+    /// scene.impulse(a, [0.5, 0.0, 0.0])?;
+    /// scene.step(&mut euler)?;
+    /// let (counts, before) = (scene.counts(), scene.positions().to_vec());
+    ///
+    /// let (mut reals, mut words) = (reals, words); // elsewhere, later
+    /// let mut scene = SceneIn::<f64>::attach(&mut reals, &mut words, 2, 1, counts).ok_or("does not fit")?;
+    /// assert_eq!(scene.positions(), before);
+    /// scene.step(&mut euler)?;
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    pub fn attach(
         mut reals: &'a mut [T],
         mut words: &'a mut [u32],
         particles: usize,
         springs: usize,
+        counts: [u32; 6],
     ) -> Option<Self> {
         let (reals, words, n, s) = (&mut reals, &mut words, particles, springs);
+        let [p, q, count, free, edges, current] = counts.map(|count| count as usize);
+        if count > free || free > p || edges > q || current > 1 {
+            return None;
+        }
         Some(MassSpring {
             network: Network {
-                position: cut(reals, n)?,
-                velocity: cut(reals, n)?,
-                mass: cut_flat(reals, n)?,
-                slot: cut_flat(words, n)?,
-                ends: cut(words, s)?,
-                stiffness: cut_flat(reals, s)?,
-                rest_length: cut_flat(reals, s)?,
+                position: cut(reals, n, p)?,
+                velocity: cut(reals, n, p)?,
+                mass: cut_flat(reals, n, p)?,
+                slot: cut_flat(words, n, p)?,
+                ends: cut(words, s, q)?,
+                stiffness: cut_flat(reals, s, q)?,
+                rest_length: cut_flat(reals, s, q)?,
             },
             islands: Islands {
-                particle: cut_flat(words, n)?,
-                list: cut(words, n)?,
-                ends: cut(words, s)?,
-                spring: cut_flat(words, s)?,
-                count: 0,
-                free: 0,
-                edges: 0,
-                current: false,
+                particle: cut_flat(words, n, p)?,
+                list: cut(words, n, p)?,
+                ends: cut(words, s, q)?,
+                spring: cut_flat(words, s, q)?,
+                count,
+                free,
+                edges,
+                current: current == 1,
             },
             work: WorkLists {
-                x: cut(reals, n)?,
-                r: cut(reals, n)?,
-                b: cut(reals, n)?,
-                p: cut(reals, n)?,
-                y: cut(reals, n)?,
-                inertia: cut_flat(reals, n)?,
-                mu: cut_flat(reals, n)?,
-                block: cut(reals, n)?,
-                hessian: cut(reals, s)?,
+                x: cut(reals, n, p)?,
+                r: cut(reals, n, p)?,
+                b: cut(reals, n, p)?,
+                p: cut(reals, n, p)?,
+                y: cut(reals, n, p)?,
+                inertia: cut_flat(reals, n, p)?,
+                mu: cut_flat(reals, n, p)?,
+                block: cut(reals, n, p)?,
+                hessian: cut(reals, s, q)?,
             },
         })
     }
