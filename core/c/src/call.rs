@@ -93,8 +93,8 @@ impl<T: Real> Open<'_, T> {
         let gravity = hooke::Gravity(self.options().gravity);
         let springs = self.scene.springs();
         Ok(Energies {
-            kinetic: springs.kinetic(),
-            springs: springs.potential(),
+            kinetic: springs.kinetic_energy(),
+            springs: springs.potential_energy(),
             gravity: hooke::Force::potential_energy(&gravity, self.scene.state()),
         })
     }

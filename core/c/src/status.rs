@@ -101,7 +101,9 @@ impl From<StepError> for Failure {
         let (status, index) = match error {
             StepError::TimeStep => (HOOKE_TIME_STEP, NO_INDEX),
             StepError::Tolerance => (HOOKE_TOLERANCE, NO_INDEX),
-            StepError::Force(_) => (HOOKE_FORCE, NO_INDEX), // The options' forces act on all.
+            // The options' gravity, drag and damping act on all.
+            StepError::Field | StepError::Damping(_) => (HOOKE_FORCE, NO_INDEX),
+            StepError::Force(i) | StepError::NotCertified(i) => (HOOKE_FORCE, i),
             StepError::NoParticle(i) => (HOOKE_NO_PARTICLE, i),
             StepError::NotPinned(i) => (HOOKE_NOT_PINNED, i),
             StepError::Motion(i) => (HOOKE_MOTION, i),
