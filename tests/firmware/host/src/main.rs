@@ -8,6 +8,7 @@
 
 mod compare;
 mod golden;
+mod memory;
 
 use std::io::Read;
 use std::process::ExitCode;

@@ -15,7 +15,9 @@ mod clock {
             RELOAD.write_volatile(ALL);
             VALUE.write_volatile(0);
             CONTROL.write_volatile(0b101); // on, the core's clock, no interrupt
+            while VALUE.read_volatile() == 0 {} // until the first tick has loaded it
         }
+        came_round(); // its first load does not count
     }
 
     pub fn ticks() -> u64 {

@@ -15,7 +15,7 @@ fn run<M: Memory>(scene: &mut MassSpring<M>, trace: &mut Trace<'_>) -> Outcome {
     scene.pin(0)?;
     scene.pin(SIDE - 1)?;
     let mut euler = LinearlyImplicitEuler::new(dt()).gravity(gravity());
-    for _ in 0..60 {
+    for _ in 0..24 {
         let report = scene.step(&mut euler)?;
         trace.step(scene, &report)?;
     }

@@ -10,7 +10,7 @@ use firmware_jobs::{Outcome, gravity, hang, hang_cloth};
 use hooke::{Fixed, Hookean, LinearlyImplicitEuler, MassSpring, Memory, Scene, Snapshot};
 use static_cell::ConstStaticCell;
 
-const STEPS: u64 = 30;
+const STEPS: u64 = 15;
 const CLOTH: usize = 210;
 type Kept<const N: usize, const S: usize> = Snapshot<Fixed<f32, N, S, Hookean>>;
 static ROPE: ConstStaticCell<Scene<f32, 40, 39>> = ConstStaticCell::new(Scene::new());
