@@ -19,9 +19,9 @@ programs() {
 
 # Builds them and copies them to where no other target overwrites them.
 build_target() {
-    local triple board flags machine program link package=firmware-image bins=()
+    local triple board flags machine program link package=firmware-image bins=() compile=()
     describe "$1"
-    have_target "$triple"
+    compiler_for "$triple"
     for program in $(programs "$1"); do bins+=(--bin "$program"); done
     case $board in
         -) link= package=firmware-wasm ;;
@@ -29,7 +29,7 @@ build_target() {
         riscv) link="-L$PWD/boards/riscv -Clink-arg=-Tmemory.x -Clink-arg=-Tlink.x" ;;
         *) link="-L$PWD/boards/$board -Clink-arg=-Tlink.x" ;;
     esac
-    RUSTFLAGS="$link $flags" cargo build --quiet --profile image --target "$triple" -p "$package" ${bins[@]+"${bins[@]}"} ||
+    RUSTFLAGS="$link $flags" "${compile[@]}" build --quiet --profile image --target "$triple" -p "$package" ${bins[@]+"${bins[@]}"} ||
         { echo "firmware: $1 does not build"; exit 1; }
     mkdir -p "$out/$1"
     for program in $(programs "$1"); do cp "$CARGO_TARGET_DIR/$triple/image/$program" "$out/$1/"; done
