@@ -58,6 +58,7 @@ pub(crate) fn prepare<T: Real, F: Force<T>, L>(parts: &mut Parts<'_, T, L>, forc
 }
 
 /// Assembles A, μ and b of an island for a method with matrix M + θhD − sK, after [`prepare`].
+#[inline(never)] // As the passes below: frames of their own keep the stack shallow.
 pub(crate) fn assemble<T: Real, F: Force<T>, L: Law>(
     island: &mut IslandParts<'_, T>,
     forces: &mut F,
@@ -120,6 +121,7 @@ impl<T: Real> Loaded<T> {
 
 /// The springs' forces into b, Hessians, and what compressed springs charge μ with. Answers how many Hessians are
 /// replacements.
+#[inline(never)]
 fn linearize<T: Real, F: Force<T>, L: Law>(
     island: &mut IslandParts<'_, T>,
     forces: &mut F,
@@ -147,6 +149,7 @@ fn linearize<T: Real, F: Force<T>, L: Law>(
 /// Clamps the compressed springs that meet a node without certificate, and computes μ anew. Answers how many. What
 /// fails then is no spring's doing: a force of the caller's own with a negative drag or Hessian.
 #[cold]
+#[inline(never)]
 fn project<T: Real, F: Force<T>, L: Law>(
     island: &mut IslandParts<'_, T>,
     forces: &mut F,
@@ -184,6 +187,7 @@ fn project<T: Real, F: Force<T>, L: Law>(
 }
 
 /// b = h f − θh D q̇ − Σ E_jᵀ H_j (Δq̇)_j, f being in b.
+#[inline(never)]
 fn right_side<T: Real, F: Force<T>>(
     island: &mut IslandParts<'_, T>,
     forces: &F,

@@ -46,6 +46,7 @@ fn term_error<T: Real>(h: &Hessian<T>, d: Vec3<T>) -> Vec3<T> {
 }
 
 /// r = b − A x by the same sums as the operator's, and in `error` the bound δ on its rounding, by component.
+#[inline(never)]
 pub(crate) fn residual<T: Real, F: Force<T>>(
     system: &System<'_, T, F>,
     b: &[Vec3<T>],
@@ -100,6 +101,7 @@ pub(crate) fn weighted<T: Real>(r: &[Vec3<T>], weight: &[T]) -> T {
 /// ½ Σ (δᵢ + k u (|A||x|)ᵢ)²/μᵢ: the β that rounding alone can leave after k updates of x, each of which rounds x by
 /// u|x| at most. What is stuck below it is as exact as the precision allows (Greenbaum 1997, attainable accuracy).
 /// `size` is scratch.
+#[inline(never)]
 pub(crate) fn attainable<T: Real, F: Force<T>>(
     system: &System<'_, T, F>,
     x: &[Vec3<T>],
@@ -151,6 +153,7 @@ pub(crate) fn upper<T: Real>(r: &[Vec3<T>], error: Option<&[Vec3<T>]>, weight: &
 }
 
 /// ½ (rᵀz − Σδ|z|)²/(zᵀA⁺z), rounded down: ½‖e‖²_A is at least this. A⁺ ⪰ A drops the negative α.
+#[inline(never)]
 pub(crate) fn lower<T: Real, F: Force<T>>(
     system: &System<'_, T, F>,
     r: &[Vec3<T>],

@@ -26,6 +26,7 @@ pub struct Jacobi<'a, T> {
 
 impl<'a, T: Real> Jacobi<'a, T> {
     /// Builds the inverses in `blocks`, one per row of the system.
+    #[inline(never)]
     pub fn new<F: Force<T>>(system: &System<'_, T, F>, blocks: &'a mut [[T; 6]]) -> Self {
         system.diagonal(blocks);
         for block in blocks.iter_mut() {

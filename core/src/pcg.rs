@@ -66,6 +66,7 @@ pub(crate) struct Vectors<'a, T> {
 
 /// Solves A x = b. On an island that nothing holds (`free`), the sum of the momentum equations is repaired at the start
 /// and at every check, so that momentum is kept to rounding even when iterations are cut short.
+#[inline(never)] // Once a step and island: frames of their own keep the stack shallow.
 pub(crate) fn solve<T: Real, F: Force<T>>(
     system: &System<'_, T, F>,
     preconditioner: &impl Preconditioner<T>,
@@ -142,7 +143,7 @@ pub(crate) fn solve<T: Real, F: Force<T>>(
 }
 
 /// Iterates until β ≤ target or the number of iterations is used up; answers whether it broke down (pᵀAp ≤ 0 or NaN).
-#[inline]
+#[inline(never)]
 fn iterate<T: Real, F: Force<T>>(
     system: &System<'_, T, F>,
     preconditioner: &impl Preconditioner<T>,
@@ -152,10 +153,7 @@ fn iterate<T: Real, F: Force<T>>(
     max_iterations: u32,
     iterations: &mut u32,
 ) -> bool {
-    let mut rz = preconditioner.apply(r, y);
-    for (p, z) in p.iter_mut().zip(y.iter()) {
-        *p = *z;
-    }
+    let mut rz = preconditioner.apply(r, p);
     while *iterations < max_iterations {
         let curvature = system.apply(p, y);
         if !(curvature > T::ZERO) {

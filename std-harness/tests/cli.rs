@@ -332,7 +332,7 @@ fn bad_options_and_names_are_refused() {
         ("run cloth:1", vec!["'1'"]),
         ("run cloth:-2", vec!["'-2'"]),
         ("run cloth:", vec!["'cloth:'", "cloth:N"]),
-        ("run cloth", vec!["'cloth:3'", "cloth:N"]),
+        ("run cloth", vec!["'cloth'", "cloth:N"]),
         ("run cloth:abc", vec!["'abc'"]),
         ("run spring:3", vec!["'spring:3'"]),
         ("run lattice:3x3", vec!["'3x3'", "lattice:AxBxC"]),

@@ -182,6 +182,7 @@ impl<T: Real, F: Force<T>> Integrator<T> for LinearlyImplicitEuler<T, F> {
 }
 
 /// q̇⁺ = q̇ + Δ, q⁺ = q + h q̇⁺ on free particles; b⁺, ḃ⁺ on pins. Nothing is written unless all of it is finite.
+#[inline(never)]
 fn commit<T: Real, L: Law>(parts: Parts<'_, T, L>, h: T, motion: &[Motion<T>]) -> Result<(), StepError> {
     let Parts { position, velocity, particle, free, x, .. } = parts;
     for (i, change) in particle.iter().zip(x.iter()).take(free) {

@@ -1,0 +1,72 @@
+//! Small simulations, one per feature of the kernel. Each builds its scene in a `static`, steps it, and gives a digest
+//! of all positions and velocities after every step; the digests must be the same on every target.
+#![no_std]
+#![forbid(unsafe_code)]
+
+mod digest;
+mod job;
+mod outcome;
+mod scenes;
+mod trace;
+
+pub mod break_spring;
+pub mod cables;
+pub mod clamping;
+pub mod cloth;
+pub mod cut_short;
+pub mod drag;
+pub mod edits;
+pub mod islands;
+pub mod measures;
+pub mod moving_pin;
+pub mod pin_release;
+pub mod point_force;
+pub mod point_spring;
+pub mod rope;
+pub mod slices;
+pub mod snapshot;
+pub mod spring_damping;
+
+pub use digest::Digest;
+pub use job::Job;
+pub use outcome::{Failure, Outcome};
+pub use scenes::{cloth as hang_cloth, gravity, hang};
+pub use trace::Trace;
+
+/// Every job, in the order of the golden file.
+pub static ALL: &[Job] = &[
+    rope::F32,
+    rope::F64,
+    cloth::F32,
+    cloth::F64,
+    drag::F32,
+    drag::F64,
+    spring_damping::F32,
+    spring_damping::F64,
+    point_spring::F32,
+    point_spring::F64,
+    point_force::F32,
+    point_force::F64,
+    cables::F32,
+    cables::F64,
+    moving_pin::F32,
+    moving_pin::F64,
+    pin_release::F32,
+    pin_release::F64,
+    edits::F32,
+    edits::F64,
+    break_spring::F32,
+    break_spring::F64,
+    clamping::F32,
+    clamping::F64,
+    islands::F32,
+    islands::F64,
+    snapshot::F32,
+    snapshot::F64,
+    slices::F32,
+    slices::F64,
+    cut_short::F32,
+    cut_short::F64,
+    measures::F32,
+    measures::F64,
+];
