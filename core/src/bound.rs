@@ -89,7 +89,7 @@ pub(crate) fn square<T: Real>(r: Vec3<T>, weight: T) -> T {
 }
 
 /// ½ Σ |rᵢ|²/μᵢ as the stopping rules use it: not rounded up.
-#[inline]
+#[inline(never)]
 pub(crate) fn weighted<T: Real>(r: &[Vec3<T>], weight: &[T]) -> T {
     let mut sum = Lanes::new();
     for (i, (r, weight)) in r.iter().zip(weight).enumerate() {
@@ -142,6 +142,7 @@ fn cover<T: Real>(n: usize) -> (T, T) {
 }
 
 /// ½ Σ (|rᵢ| + δᵢ)²/μᵢ, rounded up: nothing that ½‖e‖²_A can exceed.
+#[inline(never)]
 pub(crate) fn upper<T: Real>(r: &[Vec3<T>], error: Option<&[Vec3<T>]>, weight: &[T]) -> T {
     let mut sum = Lanes::new();
     for (i, (r, weight)) in r.iter().zip(weight).enumerate() {

@@ -184,6 +184,7 @@ fn iterate<T: Real, F: Force<T>>(
 
 /// x += c with c = Σ(b − m̃x)/Σm̃: the sum of all rows of A x = b then holds, since internal springs cancel in it. It is
 /// a Galerkin correction: the error's A-norm cannot grow.
+#[inline(never)]
 fn keep_momentum<T: Real>(inertia: &[T], b: &[Vec3<T>], x: &mut [Vec3<T>]) {
     let (mut missing, mut mass) = ([T::ZERO; 3], T::ZERO);
     for ((b, x), m) in b.iter().zip(x.iter()).zip(inertia) {

@@ -28,7 +28,7 @@ fn run<M: Memory>(scene: &mut MassSpring<M>, trace: &mut Trace<'_>) -> Outcome {
         for x in [state.linear_momentum(), state.angular_momentum(), state.centre_of_mass()].as_flattened() {
             trace.number(*x);
         }
-        for x in [springs.kinetic(), springs.potential(), report.upper, report.lower] {
+        for x in [springs.kinetic_energy(), springs.potential_energy(), report.upper, report.lower] {
             trace.number(x);
         }
         trace.step(scene, &report)?;
