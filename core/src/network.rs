@@ -26,6 +26,23 @@ pub(crate) struct Network<M: Memory> {
     pub(crate) rest_length: M::Springs<M::Real>,
 }
 
+/// A network whose lists are all made by the same expression (not a function: it must be usable in a `const fn` for any
+/// owner of memory).
+macro_rules! network {
+    ($particles:expr, $springs:expr) => {
+        Network {
+            position: $particles,
+            velocity: $particles,
+            mass: $particles,
+            slot: $particles,
+            ends: $springs,
+            stiffness: $springs,
+            rest_length: $springs,
+        }
+    };
+}
+pub(crate) use network;
+
 impl<M: Memory> Network<M> {
     /// A read-only view for the algorithms.
     pub(crate) fn state(&self) -> State<'_, M::Real> {

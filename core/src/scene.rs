@@ -9,7 +9,7 @@ use crate::integrator::Integrator;
 use crate::islands::Islands;
 use crate::law::Hookean;
 use crate::memory::{Fixed, Memory, SliceList, Slices};
-use crate::network::{Network, State};
+use crate::network::{Network, State, network};
 use crate::parts::{Parts, Work};
 use crate::pins::Motion;
 use crate::real::Real;
@@ -47,15 +47,7 @@ pub(crate) struct WorkLists<M: Memory> {
 macro_rules! scene {
     ($particles:expr, $springs:expr) => {
         MassSpring {
-            network: Network {
-                position: $particles,
-                velocity: $particles,
-                mass: $particles,
-                slot: $particles,
-                ends: $springs,
-                stiffness: $springs,
-                rest_length: $springs,
-            },
+            network: network!($particles, $springs),
             islands: Islands {
                 particle: $particles,
                 list: $particles,

@@ -5,7 +5,7 @@
 
 use crate::error::EditError;
 use crate::memory::{Fixed, List, Memory};
-use crate::network::Network;
+use crate::network::{Network, network};
 use crate::real::Real;
 use crate::scene::{Growable, MassSpring};
 
@@ -14,34 +14,18 @@ pub struct Snapshot<M: Memory> {
     network: Network<M>,
 }
 
-macro_rules! snapshot {
-    ($particles:expr, $springs:expr) => {
-        Snapshot {
-            network: Network {
-                position: $particles,
-                velocity: $particles,
-                mass: $particles,
-                slot: $particles,
-                ends: $springs,
-                stiffness: $springs,
-                rest_length: $springs,
-            },
-        }
-    };
-}
-
 impl<T: Real, L: crate::Law, const N: usize, const S: usize> Snapshot<Fixed<T, N, S, L>> {
     /// An empty snapshot, all zeros, for a `static`.
     #[allow(clippy::new_without_default)] // A `default()` would build a large value on the stack.
     pub const fn new() -> Self {
-        snapshot!(heapless::Vec::new(), heapless::Vec::new())
+        Self { network: network!(heapless::Vec::new(), heapless::Vec::new()) }
     }
 }
 
 impl<M: Growable> Snapshot<M> {
     /// An empty snapshot.
     pub fn empty() -> Self {
-        snapshot!(M::particles(), M::springs())
+        Self { network: network!(M::particles(), M::springs()) }
     }
 }
 
