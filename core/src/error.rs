@@ -5,6 +5,7 @@ use core::fmt;
 
 /// Why an edit of a scene was refused. The number is the index of the particle or spring concerned.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum EditError {
     /// There is no room for another particle; the number is the capacity.
     ParticlesFull(usize),
@@ -36,6 +37,7 @@ pub enum EditError {
 
 /// Why a step was refused or failed. The state is as before the call.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum StepError {
     /// dt is not a positive finite number whose square is one too.
     TimeStep,

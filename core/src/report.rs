@@ -2,6 +2,7 @@
 
 /// How the solve of one island ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Ending {
     /// The start already met the tolerance: 0 iterations.
     Untouched,
@@ -17,6 +18,7 @@ pub enum Ending {
 
 /// The solve of one island.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Solve<T> {
     /// PCG iterations.
     pub iterations: u32,
@@ -30,6 +32,7 @@ pub struct Solve<T> {
 
 /// One island of a step.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct IslandReport<T> {
     /// Its first particle.
     pub first_particle: usize,
@@ -45,6 +48,7 @@ pub struct IslandReport<T> {
 
 /// A whole step. Sums over islands, unless said otherwise.
 #[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Report<T> {
     /// PCG iterations of all islands together.
     pub iterations: u32,

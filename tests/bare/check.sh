@@ -13,12 +13,21 @@ symbols() { # profile, features
     "$nm" "$target/$dir/libhooke_bare.a" 2>/dev/null || true
 }
 
+# The functions that call something of core::panicking, by their relocations.
+culprits() {
+    local objdump
+    objdump=$(command -v llvm-objdump-22 || command -v llvm-objdump || command -v objdump)
+    "$objdump" -drC "$target/$1/libhooke_bare.a" 2>/dev/null |
+        awk '/^[0-9a-f]+ <.*>:$/ { f = $2 } /R_.*panicking/ && f !~ /panicking/ { gsub(/^<|>:$/, "", f); print f }' |
+        sed -E 's/::h[0-9a-f]{16}$//' | sort -u | tr '\n' ' '
+}
+
 for profile in s o2 release; do
     all=$(symbols "$profile" "")
     entries=$(grep -cE ' T (edit|step|measure|slices|equations)_f(32|64)$' <<<"$all" || true)
     [ "$entries" = 10 ] || { echo "bare: $entries of 10 entry points linked at $profile: the check would prove nothing"; exit 1; }
     if grep -q hooke_panicked <<<"$all"; then
-        echo "bare: a panic is reachable at $profile"
+        echo "bare: a panic is reachable at $profile, from $(culprits "$profile")"
         exit 1
     fi
     if ! grep -q hooke_panicked <<<"$(symbols "$profile" sabotage)"; then
