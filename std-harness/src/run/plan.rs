@@ -67,7 +67,7 @@ fn known(what: &str, name: &str, names: &[&str]) -> Result<(), InputError> {
         return Ok(());
     }
     let near = nearest::suggestion(name, names);
-    Err(InputError::new(format!("unknown {what} '{name}'{near}; known: {}", names.join(", "))))
+    Err(InputError::new(format!("unknown {what} '{name}'{near} (known here: {})", names.join(", "))))
 }
 
 impl Plan {
