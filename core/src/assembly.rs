@@ -8,7 +8,7 @@
 //! H_j scaled and clamped as in A ("K̃ on both sides": the equation that is solved is the lecture's with K̃ for K). One
 //! root for l and one for w per spring. Where all nodes are certified there is no second look at the springs' lengths.
 //!
-//! Source: the mass-spring lecture (assembly, linearly-implicit integration); DESIGN §2.4 and §4.
+//! Source: the mass-spring lecture (assembly, linearly-implicit integration); Baraff & Witkin 1998, §3.
 
 use crate::certificate::{certify, charge, fails};
 use crate::error::StepError;

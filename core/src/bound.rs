@@ -13,7 +13,7 @@
 //!
 //! Cost: one product at each check of a solve (most have one), one more at its end. Valid for rows of up to 2¹⁷ springs in f32, 2⁴⁶ in f64.
 //!
-//! Sources: Higham, *Accuracy and Stability of Numerical Algorithms*, §3.3 (running error analysis); DESIGN §2.3.
+//! Sources: Higham, *Accuracy and Stability of Numerical Algorithms*, §3.3 (running error analysis); Greenbaum 1997.
 
 use crate::force::Force;
 use crate::hessian::Hessian;

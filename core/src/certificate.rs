@@ -6,7 +6,7 @@
 //!
 //! μᵢ > 0 for all i proves A positive definite: *certified*. At the nodes that fail, the compressed springs that meet
 //! there are clamped (see [`crate::Hessian`]); clamping only raises μ, so one pass is enough. μ is rounded down: what
-//! it claims holds for the matrix of the stored floats. O(compressed springs). Source: DESIGN §2.4.
+//! it claims holds for the matrix of the stored floats. O(compressed springs). The bound is |x_A − x_B|² ≤ 2(|x_A|² + |x_B|²).
 
 use crate::hessian::Hessian;
 use crate::real::Real;

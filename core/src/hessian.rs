@@ -11,7 +11,7 @@
 //!
 //! l = 0: H = kI. That is exact for l₀ = 0; for l₀ > 0 it is a replacement (0 ⪯ H ⪯ kI) and counts as projected.
 //!
-//! Source: the mass-spring lecture (Hessian of a spring); DESIGN §1.
+//! Source: the mass-spring lecture (Hessian of a spring).
 
 use crate::real::Real;
 use crate::spring::{Spring, Stretched};

@@ -13,7 +13,7 @@
 //!
 //! Cost per iteration: one product, one application of D⁻¹, 9 flops per unknown. Memory: x, r, b, p, y.
 //!
-//! Sources: Hestenes & Stiefel 1952; DESIGN §4 (stopping).
+//! Source: Hestenes & Stiefel 1952.
 
 use crate::bound;
 use crate::force::Force;

@@ -30,7 +30,7 @@ pub struct MassSpring<M: Memory> {
     pub(crate) work: WorkLists<M>,
 }
 
-/// The solver's vectors (DESIGN: `Scene` holds the state and the PCG vectors).
+/// The solver's vectors: a scene holds its state and what PCG needs; other methods own their scratch.
 pub(crate) struct WorkLists<M: Memory> {
     pub(crate) x: M::Particles<[M::Real; 3]>,
     pub(crate) r: M::Particles<[M::Real; 3]>,

@@ -8,7 +8,7 @@
 //! Cost per product: a difference, a dot and a scatter per spring (23 flops, and 9 for the form), 9 per particle; each
 //! point spring is asked once in the islands that one holds. Memory: 4 numbers and 2 indices per spring, 1 number per
 //! particle. Source: the mass-spring lecture (linearly-implicit time
-//! integration); DESIGN §2.
+//! integration).
 
 use crate::force::{Force, Rows};
 use crate::hessian::Hessian;

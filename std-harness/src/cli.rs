@@ -1,4 +1,4 @@
-//! The command line (DESIGN §6): options to plain values. What they mean is decided in [`crate::run::plan`].
+//! The command line: options to plain values. What they mean is decided in [`crate::run::plan`].
 
 use std::path::PathBuf;
 

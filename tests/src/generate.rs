@@ -1,4 +1,4 @@
-//! Scenes as plain data, from their definitions (DESIGN §5), independent of the harness.
+//! Scenes as plain data, from their definitions, independent of the harness.
 
 use crate::data::{PointData, SceneData};
 use crate::random::Random;

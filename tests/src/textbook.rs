@@ -1,4 +1,4 @@
-//! One spring by the textbook, and the rule of where to clamp (DESIGN §2.4), for the oracles in `f64`.
+//! One spring by the textbook, and the rule of where to clamp, for the oracles in `f64`.
 //!
 //! ∂²V/∂Δx² = k[(1 − l₀/l)(I − uuᵀ) + uuᵀ]; clamped: k uuᵀ; at l = 0: kI. Nothing here is compressed to four numbers.
 

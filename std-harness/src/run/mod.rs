@@ -69,7 +69,7 @@ fn run_in<T: Real + Display>(plan: &Plan) -> Result<String, RunError> {
     progress.finish_and_clear();
     outcome.finish(&mut simulation, start.elapsed());
 
-    recorder.finish(&simulation).map_err(lost)?;
+    recorder.finish().map_err(lost)?;
     if let Some(file) = &plan.final_csv {
         simulation.write_final(file).map_err(lost)?;
     }

@@ -1,4 +1,4 @@
-//! What a run did, in figures: the keys of `--json` (DESIGN §6).
+//! What a run did, in figures: the keys of `--json`.
 
 use std::fmt::{self, Display};
 use std::io;

@@ -77,7 +77,7 @@ impl<'a> Recorder<'a> {
     }
 
     /// Writes plot, table and picture. Also after a failed step: what there was is kept.
-    pub fn finish<T: Real + Display>(&mut self, _: &Simulation<T>) -> io::Result<()> {
+    pub fn finish(&mut self) -> io::Result<()> {
         let Some(open) = &self.open else { return Ok(()) };
         let [series, plot_file, table_file, picture] = FILES.map(|name| open.dir.join(name));
         plot::write(&plot_file, &self.plan.model.name, &open.energies)?;

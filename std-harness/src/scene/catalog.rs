@@ -1,4 +1,4 @@
-//! The reference scenes, by name (DESIGN §5): ids are 0-based, in the order given.
+//! The reference scenes, by name: ids are 0-based, in the order given.
 
 use super::Model;
 use crate::error::InputError;

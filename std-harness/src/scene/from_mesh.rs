@@ -11,7 +11,7 @@ pub const STIFFNESS: f64 = 1e3;
 /// Mass of a mesh's particles unless said otherwise, kg.
 pub const MASS: f64 = 0.01;
 
-/// The mesh as a scene with the defaults of DESIGN §6.
+/// The mesh as a scene with the defaults of this file.
 pub fn model(name: &str, mesh: &Mesh) -> Model {
     let mut model = Model::at_rest(name, mesh.points.clone(), MASS);
     for [a, b] in mesh.edges() {

@@ -60,7 +60,7 @@ pub struct Model {
 }
 
 impl Model {
-    /// Particles at rest, nothing pinned, no springs, the defaults of a mesh (DESIGN §6).
+    /// Particles at rest, nothing pinned, no springs, the defaults of a mesh.
     pub fn at_rest(name: impl Into<String>, position: Vec<[f64; 3]>, mass: f64) -> Self {
         let n = position.len();
         Self {
