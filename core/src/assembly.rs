@@ -6,19 +6,21 @@
 //! A Δ = b,  b = h f − θh D q̇ − Σ_j E_jᵀ H_j (Δq̇)_j,
 //!
 //! H_j scaled and clamped as in A ("K̃ on both sides": the equation that is solved is the lecture's with K̃ for K). One
-//! root for l and one for w per spring. Where all nodes are certified there is no second look at the springs' lengths.
+//! root for l and one for w per spring, one pass over the springs; where a node is not certified the springs that meet it
+//! are looked at again, and b takes the change of their H.
 //!
 //! Source: the mass-spring lecture (assembly, linearly-implicit integration); Baraff & Witkin 1998, §3.
 
 use crate::certificate::{certify, charge, fails};
 use crate::error::StepError;
-use crate::force::Force;
+use crate::force::{Force, Rows};
 use crate::hessian::{Hessian, Scaling};
 use crate::law::Law;
-use crate::network::State;
-use crate::parts::{Edge, IslandParts, Other, Parts};
+use crate::memory::Memory;
+use crate::parts::IslandParts;
 use crate::real::Real;
-use crate::selection::{self, Ends};
+use crate::scene::WorkLists;
+use crate::selection::Ends;
 use crate::spring::{Spring, Stretched};
 use crate::vec3::{self, Vec3};
 
@@ -35,21 +37,35 @@ pub(crate) struct Assembled {
     pub(crate) free: bool,
 }
 
-/// M + θhD and the forces that are not the springs', for all islands at once: each force is asked once a step, however
-/// many islands there are. Rows that a point spring holds are marked in y.
-pub(crate) fn prepare<T: Real, F: Force<T>, L>(parts: &mut Parts<'_, T, L>, forces: &F, scaling: Scaling<T>) {
-    let (rows, work) = parts.all_rows();
+/// M + θhD, and b and y without springs, for all islands at once: b = h f − θhD q̇ with the forces that are not the
+/// springs'. Each force is asked once a step, however many islands there are. Rows that a point spring holds are marked
+/// in y.
+#[inline(never)] // As the passes below: frames of their own keep the stack shallow.
+pub(crate) fn prepare<M: Memory<Real = T>, T: Real, F: Force<T>>(
+    rows: &Rows<'_, T>,
+    work: &mut WorkLists<M>,
+    forces: &F,
+    h: T,
+    scaling: Scaling<T>,
+) {
+    let mass = |i: usize| rows.state.mass.get(i).copied().unwrap_or(T::ONE);
     let lists = work.b.iter_mut().zip(work.inertia.iter_mut()).zip(work.mu.iter_mut()).zip(work.y.iter_mut());
     for ((((b, inertia), mu), y), i) in lists.zip(rows.particles()) {
-        let mass = rows.state.mass.get(i).copied().unwrap_or(T::ONE);
-        *inertia = if F::DRAGS { mass + scaling.damping * forces.drag(i, mass) } else { mass };
+        *inertia = if F::DRAGS { mass(i) + scaling.damping * forces.drag(i, mass(i)) } else { mass(i) };
         *b = [T::ZERO; 3];
         *y = [T::ZERO; 3];
         *mu = T::ZERO;
     }
-    forces.add(&rows, work.b);
+    forces.add(rows, &mut work.b);
+    for (b, i) in work.b.iter_mut().zip(rows.particles()) {
+        *b = vec3::scale(h, *b);
+        if F::DRAGS {
+            let v = rows.state.velocity.get(i).copied().unwrap_or([T::ZERO; 3]);
+            *b = vec3::add_scaled(*b, -(scaling.damping * forces.drag(i, mass(i))), v);
+        }
+    }
     if F::ANCHORS {
-        forces.hessians(&rows, &mut |row, _| {
+        forces.hessians(rows, &mut |row, _| {
             if let Some(mark) = work.y.get_mut(row) {
                 *mark = [T::ONE; 3];
             }
@@ -58,19 +74,21 @@ pub(crate) fn prepare<T: Real, F: Force<T>, L>(parts: &mut Parts<'_, T, L>, forc
 }
 
 /// Assembles A, μ and b of an island for a method with matrix M + θhD − sK, after [`prepare`].
-#[inline(never)] // As the passes below: frames of their own keep the stack shallow.
+#[inline(never)]
 pub(crate) fn assemble<T: Real, F: Force<T>, L: Law>(
     island: &mut IslandParts<'_, T>,
     forces: &mut F,
     h: T,
     scaling: Scaling<T>,
 ) -> Result<Assembled, StepError> {
-    let points = F::ANCHORS && island.work.y.iter().any(|mark| mark[0] != T::ZERO);
-    let replaced = linearize::<T, F, L>(island, forces, scaling, points);
-    let certified = certify(island.work.inertia, island.work.mu);
-    let clamped = if certified { 0 } else { project::<T, F, L>(island, forces, scaling, points)? };
-    right_side(island, forces, h, scaling, points);
-    let free = island.anchors.is_empty() && !points;
+    let points = F::ANCHORS && island.vectors.y.iter().any(|mark| mark[0] != T::ZERO);
+    let mut replaced = linearize::<T, F, L>(island, forces, h, scaling);
+    if F::ANCHORS && points {
+        replaced += linearize_points(island, forces, scaling);
+    }
+    let certified = certify(island.matrix.inertia, island.vectors.mu);
+    let clamped = if certified { 0 } else { project(island, forces, scaling, points)? };
+    let free = island.anchors == 0 && !points;
     Ok(Assembled { clamped: replaced + clamped, certified: certified && replaced == 0, points, free })
 }
 
@@ -84,17 +102,13 @@ struct Loaded<T> {
 
 impl<T: Real> Loaded<T> {
     #[inline(always)]
-    fn new<F: Force<T>, L: Law>(state: &State<'_, T>, forces: &F, edge: &Edge) -> Self {
-        let spring = state.spring(edge.spring);
-        let stretched = Stretched::new(selection::difference(edge.a, edge.b, state.position));
-        let damping = if F::DAMPS { forces.damping(edge.spring) } else { T::ZERO };
-        let marked = state.ends.get(edge.spring).is_some_and(|pair| Ends::unpack(*pair).cable);
-        Self {
-            spring,
-            stretched,
-            damping,
-            slack: L::slackens(marked) && stretched.length < spring.rest_length,
-        }
+    fn new<F: Force<T>, L: Law>(rows: &Rows<'_, T>, forces: &F, j: usize, delta: Vec3<T>) -> Self {
+        let spring = rows.state.spring(j);
+        let stretched = Stretched::new(delta);
+        let damping = if F::DAMPS { forces.damping(j) } else { T::ZERO };
+        let marked = rows.state.ends.get(j).is_some_and(|pair| Ends::unpack(*pair).cable);
+        let slack = L::slackens(marked) && stretched.length < spring.rest_length;
+        Self { spring, stretched, damping, slack }
     }
 
     #[inline(always)]
@@ -105,7 +119,7 @@ impl<T: Real> Loaded<T> {
         Hessian::new(self.spring, self.stretched, self.damping, scaling)
     }
 
-    /// The force on end A.
+    /// The force on the end that x_A of its Δx belongs to.
     #[inline(always)]
     fn force(&self) -> Vec3<T> {
         let pull = if self.slack { T::ZERO } else { -self.spring.tension(self.stretched.length) };
@@ -119,134 +133,161 @@ impl<T: Real> Loaded<T> {
     }
 }
 
-/// The springs' forces into b, Hessians, and what compressed springs charge μ with. Answers how many Hessians are
+/// The springs: their Hessians, what compressed ones charge μ with, and h f − H Δq̇ into b. Answers how many Hessians are
 /// replacements.
 #[inline(never)]
 fn linearize<T: Real, F: Force<T>, L: Law>(
     island: &mut IslandParts<'_, T>,
-    forces: &mut F,
+    forces: &F,
+    h: T,
     scaling: Scaling<T>,
-    points: bool,
 ) -> u32 {
-    let edges = island.edges();
-    let IslandParts { rows, work, .. } = island;
     let mut replaced = 0;
-    for (edge, place) in edges.zip(work.hessian.iter_mut()) {
-        let loaded = Loaded::new::<F, L>(&rows.state, forces, &edge);
-        let h = loaded.hessian(scaling);
-        *place = h.pack();
-        replaced += u32::from(loaded.replaced());
-        scatter(&edge, loaded.force(), work.b);
-        charge_ends(&edge, &h, work.mu);
-    }
-    if F::ANCHORS && points {
-        replaced += forces.linearize(rows, scaling);
-        forces.hessians(rows, &mut |row, h| charge(work.mu, row, T::ONE, &h));
+    let mut edge = 0;
+    for row in 0..island.matrix.own.len() {
+        let near = island.end(row);
+        let last = edge + island.matrix.own.get(row).map_or(0, |own| *own as usize);
+        while edge < last {
+            let (Some(other), Some(j)) = (island.matrix.other.get(edge), island.spring.get(edge)) else {
+                break;
+            };
+            let (other, j) = (*other as usize, *j as usize);
+            let far = island.end(other);
+            let delta = vec3::sub(near.position, far.position);
+            let loaded = Loaded::new::<F, L>(&island.matrix.rows, forces, j, delta);
+            let hessian = loaded.hessian(scaling);
+            replaced += u32::from(loaded.replaced());
+            let product = hessian.mul(vec3::sub(near.velocity, far.velocity));
+            let sum = vec3::sub(vec3::scale(h, loaded.force()), product);
+            if let Some(place) = island.matrix.hessian.get_mut(edge) {
+                *place = hessian.pack();
+            }
+            scatter(row, other, sum, island.vectors.b);
+            charge_ends(row, other, &hessian, island.vectors.mu);
+            edge += 1;
+        }
     }
     replaced
+}
+
+/// The same for point springs.
+#[inline(never)]
+fn linearize_points<T: Real, F: Force<T>>(
+    island: &mut IslandParts<'_, T>,
+    forces: &mut F,
+    scaling: Scaling<T>,
+) -> u32 {
+    let replaced = forces.linearize(&island.matrix.rows, scaling);
+    add_points(island, forces, -T::ONE);
+    charge_points(island, forces);
+    replaced
+}
+
+/// b += sign · Σ H q̇ over point springs.
+fn add_points<T: Real, F: Force<T>>(island: &mut IslandParts<'_, T>, forces: &F, sign: T) {
+    let rows = island.matrix.rows;
+    forces.hessians(&rows, &mut |row, hessian| {
+        let v = island.end(row).velocity;
+        if let Some(b) = island.vectors.b.get_mut(row) {
+            *b = vec3::add_scaled(*b, sign, hessian.mul(v));
+        }
+    });
+}
+
+fn charge_points<T: Real, F: Force<T>>(island: &mut IslandParts<'_, T>, forces: &F) {
+    let rows = island.matrix.rows;
+    forces.hessians(&rows, &mut |row, hessian| charge(island.vectors.mu, row, T::ONE, &hessian));
 }
 
 /// Clamps the compressed springs that meet a node without certificate, and computes μ anew. Answers how many. What
 /// fails then is no spring's doing: a force of the caller's own with a negative drag or Hessian.
 #[cold]
 #[inline(never)]
-fn project<T: Real, F: Force<T>, L: Law>(
+fn project<T: Real, F: Force<T>>(
     island: &mut IslandParts<'_, T>,
     forces: &mut F,
     scaling: Scaling<T>,
     points: bool,
 ) -> Result<u32, StepError> {
-    let edges = island.edges();
-    let IslandParts { rows, work, .. } = island;
     let mut clamped = 0;
-    for (edge, place) in edges.clone().zip(work.hessian.iter_mut()) {
-        let met = fails(work.mu, edge.row) || matches!(edge.other, Other::Row(row) if fails(work.mu, row));
-        if met && !(place[0] >= T::ZERO) {
-            let loaded = Loaded::new::<F, L>(&rows.state, forces, &edge);
-            *place = Hessian::clamped(loaded.spring, loaded.stretched, loaded.damping, scaling).pack();
-            clamped += 1;
+    each_spring(island, |island, row, other, edge| {
+        let mu = &island.vectors.mu;
+        let met = fails(mu, row) || (other < mu.len() && fails(mu, other));
+        let (Some(place), Some(j)) = (island.matrix.hessian.get(edge), island.spring.get(edge)) else {
+            return;
+        };
+        let old = Hessian::unpack(*place);
+        if !met || old.alpha >= T::ZERO {
+            return;
         }
-    }
+        let (near, far) = (island.end(row), island.end(other));
+        let delta = vec3::sub(near.position, far.position);
+        let damping = if F::DAMPS { forces.damping(*j as usize) } else { T::ZERO };
+        let spring = island.matrix.rows.state.spring(*j as usize);
+        let new = Hessian::clamped(spring, Stretched::new(delta), damping, scaling);
+        let speed = vec3::sub(near.velocity, far.velocity);
+        let change = vec3::sub(old.mul(speed), new.mul(speed));
+        scatter(row, other, change, island.vectors.b);
+        if let Some(place) = island.matrix.hessian.get_mut(edge) {
+            *place = new.pack();
+        }
+        clamped += 1;
+    });
     if F::ANCHORS && points {
-        clamped += forces.clamp(rows, scaling, |row| fails(work.mu, row));
+        add_points(island, forces, T::ONE);
+        let mu = &island.vectors.mu;
+        clamped += forces.clamp(&island.matrix.rows, scaling, |row| fails(mu, row));
+        add_points(island, forces, -T::ONE);
     }
-    for mu in work.mu.iter_mut() {
-        *mu = T::ZERO;
-    }
-    for (edge, h) in edges.zip(work.hessian.iter()) {
-        charge_ends(&edge, &Hessian::unpack(*h), work.mu);
-    }
+    island.vectors.mu.fill(T::ZERO);
+    each_spring(island, |island, row, other, edge| {
+        if let Some(hessian) = island.matrix.hessian.get(edge) {
+            charge_ends(row, other, &Hessian::unpack(*hessian), island.vectors.mu);
+        }
+    });
     if F::ANCHORS && points {
-        forces.hessians(rows, &mut |row, h| charge(work.mu, row, T::ONE, &h));
+        charge_points(island, forces);
     }
-    if certify(work.inertia, work.mu) {
+    if certify(island.matrix.inertia, island.vectors.mu) {
         return Ok(clamped);
     }
-    let failing = rows.particles().enumerate().find(|(row, _)| fails(work.mu, *row));
+    let failing = island.matrix.rows.particles().enumerate().find(|(row, _)| fails(island.vectors.mu, *row));
     Err(StepError::NotCertified(failing.map_or(0, |(_, i)| i)))
 }
 
-/// b = h f − θh D q̇ − Σ E_jᵀ H_j (Δq̇)_j, f being in b.
-#[inline(never)]
-fn right_side<T: Real, F: Force<T>>(
+/// Visits the springs in their order: (row, other end, place in the lists).
+#[inline(always)]
+fn each_spring<T: Real>(
     island: &mut IslandParts<'_, T>,
-    forces: &F,
-    h: T,
-    scaling: Scaling<T>,
-    points: bool,
+    mut visit: impl FnMut(&mut IslandParts<'_, T>, usize, usize, usize),
 ) {
-    let edges = island.edges();
-    let IslandParts { rows, work, pin_velocity, free, .. } = island;
-    let velocity = |i: usize| rows.state.velocity.get(i).copied().unwrap_or([T::ZERO; 3]);
-    for (b, i) in work.b.iter_mut().zip(rows.particles()) {
-        *b = vec3::scale(h, *b);
-        if F::DRAGS {
-            let mass = rows.state.mass.get(i).copied().unwrap_or(T::ONE);
-            *b = vec3::add_scaled(*b, -(scaling.damping * forces.drag(i, mass)), velocity(i));
+    let (own, others) = (island.matrix.own, island.matrix.other);
+    let mut others = others.iter().enumerate();
+    for (row, own) in own.iter().enumerate() {
+        for (edge, other) in others.by_ref().take(*own as usize) {
+            visit(island, row, *other as usize, edge);
         }
-    }
-    for (edge, hessian) in edges.zip(work.hessian.iter()) {
-        let other = match edge.other {
-            Other::Row(_) => velocity(edge.b),
-            Other::Pin(slot) => {
-                let pin = slot.checked_sub(*free).and_then(|pin| pin_velocity.get(pin));
-                pin.copied().unwrap_or([T::ZERO; 3])
-            }
-        };
-        let product = Hessian::unpack(*hessian).mul(vec3::sub(velocity(edge.a), other));
-        scatter(&edge, vec3::scale(-T::ONE, product), work.b);
-    }
-    if F::ANCHORS && points {
-        forces.hessians(rows, &mut |row, hessian| {
-            let v = rows.particle.get(row).map_or([T::ZERO; 3], |i| velocity(*i as usize));
-            if let Some(b) = work.b.get_mut(row) {
-                *b = vec3::sub(*b, hessian.mul(v));
-            }
-        });
     }
 }
 
-/// E_jᵀ on the free rows: f at the first end, −f at the other if it is free.
+/// E_jᵀ on the free rows: f at the row, −f at the other end if it is free.
 #[inline(always)]
-fn scatter<T: Real>(edge: &Edge, f: Vec3<T>, b: &mut [Vec3<T>]) {
-    if let Some(row) = b.get_mut(edge.row) {
+fn scatter<T: Real>(row: usize, other: usize, f: Vec3<T>, b: &mut [Vec3<T>]) {
+    if let Some(row) = b.get_mut(row) {
         *row = vec3::add(*row, f);
     }
-    if let Other::Row(other) = edge.other
-        && let Some(row) = b.get_mut(other)
-    {
-        *row = vec3::sub(*row, f);
+    if let Some(other) = b.get_mut(other) {
+        *other = vec3::sub(*other, f);
     }
 }
 
 /// c_e = 2 at both ends of a spring between free particles, 1 where the other end is pinned.
 #[inline(always)]
-fn charge_ends<T: Real>(edge: &Edge, h: &Hessian<T>, mu: &mut [T]) {
-    match edge.other {
-        Other::Row(other) => {
-            charge(mu, edge.row, T::TWO, h);
-            charge(mu, other, T::TWO, h);
-        }
-        Other::Pin(_) => charge(mu, edge.row, T::ONE, h),
+fn charge_ends<T: Real>(row: usize, other: usize, h: &Hessian<T>, mu: &mut [T]) {
+    if !(h.alpha >= T::ZERO) {
+        let both = other < mu.len();
+        let c = if both { T::TWO } else { T::ONE };
+        charge(mu, row, c, h);
+        charge(mu, other, c, h);
     }
 }

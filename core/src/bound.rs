@@ -11,7 +11,7 @@
 //! component by component, for the matrix *of the stored floats*; δ is added above and taken off below. (Sums of
 //! Hestenes and Stiefel would bound an earlier iterate.)
 //!
-//! Cost: one product at each check of a solve (most have one), one more at its end. Valid for rows of up to 2¹⁷ springs in f32, 2⁴⁶ in f64.
+//! Cost: one product with its rounding at each check of a solve (most have one), one more at its end. Valid for rows of up to 2¹⁷ springs in f32, 2⁴⁶ in f64.
 //!
 //! Sources: Higham, *Accuracy and Stability of Numerical Algorithms*, §3.3 (running error analysis); Greenbaum 1997.
 
@@ -27,13 +27,13 @@ use crate::vec3::{self, Vec3};
 fn delta<T: Real>(g: Vec3<T>) -> Vec3<T> {
     let sixteenth = T::HALF * T::HALF * T::HALF * T::HALF;
     let unit = T::UNIT_ROUNDOFF * (T::ONE + sixteenth);
-    g.map(|g| unit * g + T::MIN_POSITIVE)
+    vec3::map(g, |g| unit * g + T::MIN_POSITIVE)
 }
 
 /// |a| by component.
 #[inline(always)]
 fn magnitude<T: Real>(a: Vec3<T>) -> Vec3<T> {
-    a.map(T::abs)
+    vec3::map(a, T::abs)
 }
 
 /// 7·(|α||d| + |w|(|w|·|d|)) by component: what the rounding of one spring's term H·d cannot exceed, in units of u.
@@ -54,25 +54,36 @@ pub(crate) fn residual<T: Real, F: Force<T>>(
     r: &mut [Vec3<T>],
     error: &mut [Vec3<T>],
 ) {
-    for (((y, g), x), m) in r.iter_mut().zip(error.iter_mut()).zip(x).zip(system.inertia) {
-        *y = vec3::scale(*m, *x);
-        *g = magnitude(*y);
+    for (y, g) in r.iter_mut().zip(error.iter_mut()) {
+        (*y, *g) = ([T::ZERO; 3], [T::ZERO; 3]);
     }
-    let mut add = |row: usize, product: Vec3<T>, rounding: Vec3<T>| {
-        if let (Some(y), Some(g)) = (r.get_mut(row), error.get_mut(row)) {
-            *y = vec3::add(*y, product);
-            *g = vec3::add(vec3::add(*g, magnitude(*y)), rounding);
-        }
+    let add = |(y, g): (&mut Vec3<T>, &mut Vec3<T>), term: Vec3<T>, rounding: Vec3<T>| {
+        *y = vec3::add(*y, term);
+        *g = vec3::add(vec3::add(*g, magnitude(*y)), rounding);
     };
-    for (a, b, h) in system.each_pair() {
-        let d = crate::selection::difference(a, b, x);
-        let (product, rounding) = (h.mul(d), term_error(&h, d));
-        add(a, product, rounding);
-        add(b, vec3::scale(-T::ONE, product), rounding);
+    let mut springs = system.matrix.other.iter().zip(system.matrix.hessian.iter());
+    for (row, ((own, m), x_a)) in
+        system.matrix.own.iter().zip(system.matrix.inertia.iter()).zip(x).enumerate()
+    {
+        let (Some(mut y), Some(mut g)) = (r.get(row).copied(), error.get(row).copied()) else { continue };
+        let inertia = vec3::scale(*m, *x_a);
+        add((&mut y, &mut g), inertia, magnitude(inertia));
+        for (other, h) in springs.by_ref().take(*own as usize) {
+            let (other, h) = (*other as usize, Hessian::unpack(*h));
+            let d = x.get(other).map_or(*x_a, |x_b| vec3::sub(*x_a, *x_b));
+            let (product, rounding) = (h.mul(d), term_error(&h, d));
+            add((&mut y, &mut g), product, rounding);
+            if let (Some(y), Some(g)) = (r.get_mut(other), error.get_mut(other)) {
+                add((y, g), vec3::map(product, T::neg), rounding);
+            }
+        }
+        if let (Some(row_y), Some(row_g)) = (r.get_mut(row), error.get_mut(row)) {
+            (*row_y, *row_g) = (y, g);
+        }
     }
-    system.each_anchor(|a, h| {
-        if let Some(d) = x.get(a) {
-            add(a, h.mul(*d), term_error(&h, *d));
+    system.each_point(|row, h| {
+        if let (Some(d), Some(y), Some(g)) = (x.get(row), r.get_mut(row), error.get_mut(row)) {
+            add((y, g), h.mul(*d), term_error(&h, *d));
         }
     });
     for ((y, g), b) in r.iter_mut().zip(error.iter_mut()).zip(b) {
@@ -110,24 +121,22 @@ pub(crate) fn attainable<T: Real, F: Force<T>>(
     weight: &[T],
     size: &mut [Vec3<T>],
 ) -> T {
-    for ((size, x), m) in size.iter_mut().zip(x).zip(system.inertia) {
+    for ((size, x), m) in size.iter_mut().zip(x).zip(system.matrix.inertia.iter()) {
         *size = vec3::scale(*m, magnitude(*x));
     }
-    let stiffest = |h: &Hessian<T>| h.alpha.abs() + vec3::dot(h.w, h.w);
     let at = |i: usize| x.get(i).map_or([T::ZERO; 3], |x| magnitude(*x));
-    for (a, b, h) in system.each_pair() {
-        let term = vec3::scale(stiffest(&h), vec3::add(at(a), at(b)));
-        for row in [a, b] {
-            if let Some(size) = size.get_mut(row) {
-                *size = vec3::add(*size, term);
-            }
+    let mut add = |row: usize, h: &Hessian<T>, x: Vec3<T>| {
+        if let Some(size) = size.get_mut(row) {
+            *size = vec3::add_scaled(*size, h.alpha.abs() + vec3::dot(h.w, h.w), x);
         }
-    }
-    system.each_anchor(|a, h| {
-        if let Some(size) = size.get_mut(a) {
-            *size = vec3::add_scaled(*size, stiffest(&h), at(a));
+    };
+    system.each_spring(|row, other, h| {
+        let x = vec3::add(at(row), at(other));
+        for end in [row, other] {
+            add(end, &h, x);
         }
     });
+    system.each_point(|row, h| add(row, &h, at(row)));
     let unit = T::from_count(updates as usize) * T::UNIT_ROUNDOFF;
     for (size, error) in size.iter_mut().zip(error) {
         *size = vec3::add_scaled(*error, unit, *size);
@@ -143,57 +152,45 @@ fn cover<T: Real>(n: usize) -> (T, T) {
 
 /// ½ Σ (|rᵢ| + δᵢ)²/μᵢ, rounded up: nothing that ½‖e‖²_A can exceed.
 #[inline(never)]
-pub(crate) fn upper<T: Real>(r: &[Vec3<T>], error: Option<&[Vec3<T>]>, weight: &[T]) -> T {
+pub(crate) fn upper<T: Real>(r: &[Vec3<T>], error: &[Vec3<T>], weight: &[T]) -> T {
     let mut sum = Lanes::new();
-    for (i, (r, weight)) in r.iter().zip(weight).enumerate() {
-        let delta = error.and_then(|error| error.get(i)).copied().unwrap_or([T::ZERO; 3]);
-        sum.add(i, square(vec3::add(magnitude(*r), delta), *weight));
+    for (i, ((r, error), weight)) in r.iter().zip(error).zip(weight).enumerate() {
+        sum.add(i, square(vec3::add(magnitude(*r), *error), *weight));
     }
     let (factor, term) = cover(3 * r.len());
     T::HALF * sum.sum() * factor + term
 }
 
-/// ½ (rᵀz − Σδ|z|)²/(zᵀA⁺z), rounded down: ½‖e‖²_A is at least this. A⁺ ⪰ A drops the negative α.
+/// Σ xᵀz over rows; Σ |x|ᵀ|z|, which its rounding is measured by: at most (3n + 4)u of it; and Σ eᵀ|z|.
+#[inline(never)]
+fn products<T: Real>(x: &[Vec3<T>], error: &[Vec3<T>], z: &[Vec3<T>]) -> [T; 3] {
+    let (mut sum, mut size, mut loss) = (Lanes::new(), Lanes::new(), Lanes::new());
+    for (i, ((x, e), z)) in x.iter().zip(error).zip(z).enumerate() {
+        sum.add(i, vec3::dot(*x, *z));
+        let z = magnitude(*z);
+        size.add(i, vec3::dot(magnitude(*x), z));
+        loss.add(i, vec3::dot(*e, z));
+    }
+    [sum.sum(), size.sum(), loss.sum()]
+}
+
+/// ½ (rᵀz − Σδ|z|)²/(zᵀAz), rounded down: ½‖e‖²_A is at least this. zᵀAz = zᵀr − zᵀ(r − Az), the last by
+/// [`residual`] with its own rounding bound. Leaves r − Az in `t` and that bound in `error`, which comes in as δ.
 #[inline(never)]
 pub(crate) fn lower<T: Real, F: Force<T>>(
     system: &System<'_, T, F>,
     r: &[Vec3<T>],
-    error: Option<&[Vec3<T>]>,
     z: &[Vec3<T>],
+    t: &mut [Vec3<T>],
+    error: &mut [Vec3<T>],
 ) -> T {
-    let (mut product, mut loss, mut form) = (Lanes::new(), Lanes::new(), Lanes::new());
-    for (i, ((r, z), m)) in r.iter().zip(z).zip(system.inertia).enumerate() {
-        let delta = error.and_then(|error| error.get(i)).copied().unwrap_or([T::ZERO; 3]);
-        product.add(i, vec3::dot(*r, *z));
-        loss.add(i, vec3::dot(delta, magnitude(*z)));
-        // The rounding of the dot product itself is at most (n + 4)u times the sum of its magnitudes.
-        form.add(i, *m * vec3::dot(*z, *z));
-    }
-    let mut magnitudes = Lanes::new();
-    for (i, (r, z)) in r.iter().zip(z).enumerate() {
-        magnitudes.add(i, vec3::dot(magnitude(*r), magnitude(*z)));
-    }
-    let plus = |h: Hessian<T>, d: Vec3<T>| {
-        let along = vec3::dot(magnitude(h.w), magnitude(d));
-        let exact = vec3::dot(h.w, d);
-        // (w·d)² with the rounding of w·d, at most 4u|w|·|d|, added first.
-        let safe = exact.abs() + T::from_count(4) * T::UNIT_ROUNDOFF * along;
-        let alpha = if h.alpha > T::ZERO { h.alpha } else { T::ZERO };
-        alpha * vec3::dot(d, d) + safe * safe
-    };
-    for (e, (a, b, h)) in system.each_pair().enumerate() {
-        form.add(e, plus(h, crate::selection::difference(a, b, z)));
-    }
-    let mut e = system.pairs.len();
-    system.each_anchor(|a, h| {
-        if let Some(d) = z.get(a) {
-            form.add(e, plus(h, *d));
-            e += 1;
-        }
-    });
-    let terms = T::from_count(r.len() + e + 16);
-    let (factor, term) = cover(r.len() + e);
-    let gain = product.sum() - loss.sum() * factor - terms * T::UNIT_ROUNDOFF * magnitudes.sum() - term;
-    let form = form.sum() * factor + term;
+    let (factor, term) = cover(3 * r.len());
+    let unit = factor - T::ONE;
+    let [rz, rz_size, loss] = products(r, error, z);
+    residual(system, r, z, t, error);
+    let [tz, tz_size, spread] = products(t, error, z);
+    let gain = rz - (loss * factor + unit * rz_size + term);
+    let form = (rz - tz) + (spread * factor + unit * (rz_size + tz_size) + term);
+    let form = form * factor;
     if gain > T::ZERO && form > T::ZERO { T::HALF * (gain / form) * gain / factor } else { T::ZERO }
 }

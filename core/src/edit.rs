@@ -212,7 +212,7 @@ impl<M: Memory> MassSpring<M> {
         let (Some(m), Some(v)) = (self.network.mass.get(i), self.network.velocity.get(i)) else {
             return Err(EditError::NoParticle(i));
         };
-        let velocity = vec3::add(*v, impulse.map(|p| p / *m));
+        let velocity = vec3::add(*v, vec3::map(impulse, |p| p / *m));
         self.set_velocity(i, velocity)
     }
 

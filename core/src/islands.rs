@@ -3,12 +3,17 @@
 //! q = Pᵀq̂ + b: P drops the pinned particles' rows, b holds their positions. P is never stored as a matrix; it is a
 //! numbering. Free particles get *slots* 0, 1, …, grouped by island and ascending within it; pinned ones come after.
 //! An island is a connected component over springs whose two ends are free (two ropes on one pin are two islands).
-//! Its springs are *pairs* (both ends free) and *anchors* (the other end pinned); springs between two pinned particles
-//! belong to no island: nothing in a step needs them.
+//!
+//! A row *owns* the springs whose lower free end it is, in their order: island after island, row after row. A spring's
+//! other end is a row further down, or a pin. So a product meets each row once, and every sum over springs has one
+//! order, whatever order the springs were added in between. Springs between two pins belong to no row: nothing in a
+//! step needs them.
 //!
 //! Everything of an island is contiguous, from its first particle, and its indices are local: {A, B} gives A the bits
 //! of A alone. Cost: O(n + springs·log n) once after a change of pins or springs; no scratch: union–find and the
 //! counting sorts run in the lists that they fill.
+
+use core::ops::Range;
 
 use crate::memory::{List, Memory, part, part_mut};
 use crate::network::Network;
@@ -20,10 +25,11 @@ pub(crate) struct Islands<M: Memory> {
     pub(crate) particle: M::Particles<u32>,
     /// One entry per island; the first `count` are in use
     pub(crate) list: M::Particles<[u32; 5]>,
-    /// Local ends of the islands' springs: for pairs (a, b), a < b, both local slots; for anchors (local slot, slot of
-    /// the pinned particle)
-    pub(crate) ends: M::Springs<[u32; 2]>,
-    /// The spring's own index
+    /// How many springs each slot's row owns
+    pub(crate) own: M::Particles<u32>,
+    /// Where their other ends are: slots, counted from the island's first. What lies past its last row is a pin
+    pub(crate) other: M::Springs<u32>,
+    /// Which springs these are
     pub(crate) spring: M::Springs<u32>,
     /// Number of islands
     pub(crate) count: usize,
@@ -41,19 +47,33 @@ pub(crate) struct Island {
     pub(crate) first: usize,
     pub(crate) particles: usize,
     pub(crate) first_edge: usize,
-    pub(crate) pairs: usize,
+    /// Springs that its rows own
+    pub(crate) edges: usize,
+    /// How many of these end at a pin
     pub(crate) anchors: usize,
 }
 
 /// Which words of an island's entry count what.
 const PARTICLES: usize = 1;
-const PAIRS: usize = 3;
+const EDGES: usize = 3;
 const ANCHORS: usize = 4;
 
 impl Island {
     pub(crate) fn unpack(words: [u32; 5]) -> Self {
-        let [first, particles, first_edge, pairs, anchors] = words.map(|word| word as usize);
-        Self { first, particles, first_edge, pairs, anchors }
+        let [first, particles, first_edge, edges, anchors] = words.map(|word| word as usize);
+        Self { first, particles, first_edge, edges, anchors }
+    }
+
+    /// Its slots.
+    #[inline(always)]
+    pub(crate) fn slots(&self) -> Range<usize> {
+        self.first..self.first + self.particles
+    }
+
+    /// Where its springs are.
+    #[inline(always)]
+    pub(crate) fn springs(&self) -> Range<usize> {
+        self.first_edge..self.first_edge + self.edges
     }
 }
 
@@ -64,13 +84,11 @@ impl<M: Memory> Islands<M> {
         let springs: &[[u32; 2]] = &network.ends;
         connect(slot, springs);
         let islands = name_islands(slot, &mut self.particle, &mut self.list);
-        let list = part_mut(&mut self.list, 0, islands);
+        let list = part_mut(&mut self.list, 0..islands);
         let (free, edges) = count(slot, springs, list);
-        for kind in [PAIRS, ANCHORS] {
-            place_springs(kind, slot, springs, list, &mut self.ends, &mut self.spring);
-        }
         place_particles(slot, list, free, &mut self.particle);
-        localise(slot, list, &mut self.ends);
+        place_springs(slot, springs, &mut self.own, &mut self.other, &mut self.spring);
+        localise(list, &mut self.other);
         self.count = islands;
         self.free = free as usize;
         self.edges = edges as usize;
@@ -78,17 +96,17 @@ impl<M: Memory> Islands<M> {
     }
 
     pub(crate) fn islands(&self) -> &[[u32; 5]] {
-        part(&self.list, 0, self.count)
+        part(&self.list, 0..self.count)
     }
 
     /// Room for one more particle in the derived lists.
     pub(crate) fn push_particle(&mut self) -> bool {
-        self.particle.push(0) && self.list.push([0; 5])
+        self.particle.push(0) && self.list.push([0; 5]) && self.own.push(0)
     }
 
     /// Room for one more spring in the derived lists.
     pub(crate) fn push_spring(&mut self) -> bool {
-        self.ends.push([0; 2]) && self.spring.push(0)
+        self.other.push(0) && self.spring.push(0)
     }
 }
 
@@ -129,47 +147,28 @@ fn name_islands(slot: &mut [u32], of_root: &mut [u32], list: &mut [[u32; 5]]) ->
     islands as usize
 }
 
-/// Counts each island's particles and springs and turns the counts into places; the counts themselves are left at 0,
-/// to be counted up again while filling in. Answers the totals.
+/// Counts each island's particles and springs and turns the counts into places; that of the particles is left at 0, to
+/// be counted up again while filling in. slot[i] must be the island of i. Answers the totals.
 fn count(slot: &[u32], springs: &[[u32; 2]], list: &mut [[u32; 5]]) -> (u32, u32) {
     for k in slot.iter().filter(|k| **k != MARK) {
         next(list, *k, PARTICLES);
     }
     for pair in springs {
-        if let Some((k, kind)) = island_of(slot, *pair) {
-            next(list, k, kind);
+        if let Some((k, anchored)) = owner(slot, *pair) {
+            next(list, k, EDGES);
+            if anchored & MARK != 0 {
+                next(list, k, ANCHORS);
+            }
         }
     }
     let (mut first, mut first_edge) = (0, 0);
     for island in list {
-        let [_, particles, _, pairs, anchors] = *island;
-        *island = [first, 0, first_edge, 0, 0];
+        let [_, particles, _, edges, anchors] = *island;
+        *island = [first, 0, first_edge, edges, anchors];
         first += particles;
-        first_edge += pairs + anchors;
+        first_edge += edges;
     }
     (first, first_edge)
-}
-
-/// Places the springs of one kind, in their order: pairs from the front of an island's range, anchors behind them. Ends
-/// are still particles, the free one first.
-fn place_springs(
-    kind: usize,
-    slot: &[u32],
-    springs: &[[u32; 2]],
-    list: &mut [[u32; 5]],
-    ends: &mut [[u32; 2]],
-    spring: &mut [u32],
-) {
-    for (j, pair) in springs.iter().enumerate() {
-        let Some((k, _)) = island_of(slot, *pair).filter(|found| found.1 == kind) else { continue };
-        let within = next(list, k, kind) as usize;
-        let Some(island) = list.get(k as usize).map(|words| Island::unpack(*words)) else { continue };
-        let place = island.first_edge + within + if kind == ANCHORS { island.pairs } else { 0 };
-        let e = Ends::unpack(*pair);
-        let [a, b] = if get(slot, e.a) == MARK { [e.b, e.a] } else { [e.a, e.b] };
-        set(ends, place, [a as u32, b as u32]);
-        set(spring, place, j as u32);
-    }
 }
 
 /// Slots: free particles by island and ascending, then the pinned ones.
@@ -188,36 +187,50 @@ fn place_particles(slot: &mut [u32], list: &mut [[u32; 5]], free: u32, particle:
     }
 }
 
-/// Ends that are particles become local slots, a < b in pairs (H does not care which end is A).
-fn localise(slot: &[u32], list: &[[u32; 5]], ends: &mut [[u32; 2]]) {
+/// Places the springs by the row that owns them, in their order: a counting sort. Other ends are still whole slots.
+fn place_springs(slot: &[u32], springs: &[[u32; 2]], own: &mut [u32], other: &mut [u32], spring: &mut [u32]) {
+    own.fill(0);
+    for pair in springs {
+        if let Some((row, _)) = owner(slot, *pair) {
+            set(own, row as usize, get(own, row as usize) + 1);
+        }
+    }
+    let mut first = 0;
+    for own in own.iter_mut() {
+        (*own, first) = (first, first + *own);
+    }
+    for (j, pair) in springs.iter().enumerate() {
+        if let Some((row, far)) = owner(slot, *pair) {
+            let place = get(own, row as usize);
+            set(other, place as usize, far & !MARK);
+            set(spring, place as usize, j as u32);
+            set(own, row as usize, place + 1);
+        }
+    }
+    // What is left are the rows' ends: back to counts.
+    let mut before = 0;
+    for own in own.iter_mut() {
+        (*own, before) = (*own - before, *own);
+    }
+}
+
+/// Other ends count from the first slot of the island.
+fn localise(list: &[[u32; 5]], other: &mut [u32]) {
     for words in list {
         let island = Island::unpack(*words);
-        let range = part_mut(ends, island.first_edge, island.pairs + island.anchors);
-        for (e, ends) in range.iter_mut().enumerate() {
-            let [a, b] = ends.map(|i| get(slot, i as usize) & !MARK);
-            let a = a - words[0];
-            *ends = if e >= island.pairs {
-                [a, b]
-            } else if a < b - words[0] {
-                [a, b - words[0]]
-            } else {
-                [b - words[0], a]
-            };
+        for far in part_mut(other, island.springs()) {
+            *far -= words[0];
         }
     }
 }
 
-/// The island of a spring and whether it is a pair or an anchor there; `None` if it is broken or both ends are pinned.
-/// slot[i] must be the island of i.
-fn island_of(slot: &[u32], pair: [u32; 2]) -> Option<(u32, usize)> {
+/// Which end of a spring owns it, and the other end: what `slot` says of them, the lower one first if both are free;
+/// `None` if the spring is broken or both ends are pinned.
+fn owner(slot: &[u32], pair: [u32; 2]) -> Option<(u32, u32)> {
     let e = Ends::unpack(pair);
     let (a, b) = (get(slot, e.a), get(slot, e.b));
-    match (e.broken, a == MARK, b == MARK) {
-        (false, false, false) => Some((a, PAIRS)),
-        (false, false, true) => Some((a, ANCHORS)),
-        (false, true, false) => Some((b, ANCHORS)),
-        _ => None,
-    }
+    let (low, high) = if a < b { (a, b) } else { (b, a) };
+    (!e.broken && low & MARK == 0).then_some((low, high))
 }
 
 /// The root of i's tree, which is the tree's smallest index; halves the path on the way.

@@ -6,7 +6,7 @@
 //! - growable lists, on a host (the harness brings them by implementing [`Memory`] on `Vec`).
 
 use core::marker::PhantomData;
-use core::ops::{Deref, DerefMut};
+use core::ops::{Deref, DerefMut, Range};
 
 use crate::law::{Hookean, Law};
 use crate::real::Real;
@@ -121,16 +121,16 @@ impl<X: Copy> List<X> for SliceList<'_, X> {
     }
 }
 
-/// The part `[first, first + count)` of a slice, empty if it has none.
+/// Part of a slice, empty if it has none.
 #[inline(always)]
-pub(crate) fn part<X>(slice: &[X], first: usize, count: usize) -> &[X] {
-    slice.get(first..).and_then(|s| s.get(..count)).unwrap_or_default()
+pub(crate) fn part<X>(slice: &[X], range: Range<usize>) -> &[X] {
+    slice.get(range).unwrap_or_default()
 }
 
 /// As [`part`], mutable.
 #[inline(always)]
-pub(crate) fn part_mut<X>(slice: &mut [X], first: usize, count: usize) -> &mut [X] {
-    slice.get_mut(first..).and_then(|s| s.get_mut(..count)).unwrap_or_default()
+pub(crate) fn part_mut<X>(slice: &mut [X], range: Range<usize>) -> &mut [X] {
+    slice.get_mut(range).unwrap_or_default()
 }
 
 /// Appends what `from` holds to an emptied `to`; `false` if it does not fit.

@@ -34,6 +34,6 @@ impl<T: Real> State<'_, T> {
             sum = vec3::add_scaled(sum, *m, *x);
             mass += *m;
         }
-        if mass > T::ZERO { sum.map(|s| s / mass) } else { sum }
+        if mass > T::ZERO { vec3::map(sum, |s| s / mass) } else { sum }
     }
 }

@@ -11,17 +11,18 @@
 //! (A test |r| ≤ tol·|b| with a warm start would be a trap: at small dt b is about Mq̇, one iteration passes, and a
 //! smaller dt gives a worse answer. Hence from zero, for the *change* of velocity.)
 //!
-//! Cost per iteration: one product, one application of D⁻¹, 9 flops per unknown. Memory: x, r, b, p, y.
+//! Cost per iteration: one product, one sweep over the vectors that applies D⁻¹ on the way, one update of p. Memory: x, r,
+//! b, p, y.
 //!
 //! Source: Hestenes & Stiefel 1952.
 
 use crate::bound;
 use crate::force::Force;
 use crate::jacobi::Preconditioner;
-use crate::lanes::Lanes;
+use crate::parts::Vectors;
 use crate::real::{Real, larger};
 use crate::report::{Ending, Solve};
-use crate::system::{Operator, System};
+use crate::system::System;
 use crate::vec3::{self, Vec3};
 
 /// When to stop.
@@ -48,138 +49,123 @@ impl<T: Real> Default for Stop<T> {
     }
 }
 
-/// The vectors of a solve, one entry per row.
-pub(crate) struct Vectors<'a, T> {
-    /// Right side
-    pub(crate) b: &'a [Vec3<T>],
-    /// Solution
-    pub(crate) x: &'a mut [Vec3<T>],
-    /// Residual
-    pub(crate) r: &'a mut [Vec3<T>],
-    /// Direction; at a check, δ
-    pub(crate) p: &'a mut [Vec3<T>],
-    /// A p; after that, z
-    pub(crate) y: &'a mut [Vec3<T>],
-    /// 1/μ, A ⪰ diag(μ)
-    pub(crate) weight: &'a [T],
-}
-
 /// Solves A x = b. On an island that nothing holds (`free`), the sum of the momentum equations is repaired at the start
-/// and at every check, so that momentum is kept to rounding even when iterations are cut short.
+/// and at every check, so that momentum is kept to rounding even when iterations are cut short. Of the vectors b and μ
+/// come in; x and 1/μ go out.
 #[inline(never)] // Once a step and island: frames of their own keep the stack shallow.
 pub(crate) fn solve<T: Real, F: Force<T>>(
     system: &System<'_, T, F>,
     preconditioner: &impl Preconditioner<T>,
-    v: Vectors<'_, T>,
+    v: &mut Vectors<'_, T>,
     stop: &Stop<T>,
     free: bool,
 ) -> Solve<T> {
-    let Vectors { b, x, r, p, y, weight } = v;
-    for ((x, r), b) in x.iter_mut().zip(r.iter_mut()).zip(b) {
-        *x = [T::ZERO; 3];
-        *r = *b;
+    for mu in v.mu.iter_mut() {
+        *mu = T::ONE / *mu;
     }
-    if r.iter().all(|r| *r == [T::ZERO; 3]) {
+    if v.start() {
         return Solve { iterations: 0, upper: T::ZERO, lower: T::ZERO, ending: Ending::Untouched };
     }
-    let mut start = bound::weighted(r, weight);
+    let mut from = bound::weighted(v.r, v.mu);
     // No goal is relative to what has overflowed.
-    let relative = if start.is_finite() { stop.relative * stop.relative * start } else { T::ZERO };
+    let relative = if from.is_finite() { stop.relative * stop.relative * from } else { T::ZERO };
     let goal = larger(relative, stop.absolute);
     if free {
         // What acts on the island as a whole it follows as a whole, whatever the tolerance.
-        keep_momentum(system.inertia, b, x);
-        bound::residual(system, b, x, r, p);
-        start = bound::weighted(r, weight);
+        from = v.check(system, true);
     }
-    let met = start <= goal && start.is_finite();
-    if met || stop.max_iterations == 0 {
-        let ending = if met { Ending::Untouched } else { Ending::Capped };
-        let error = if free { Some(&*p) } else { None };
-        preconditioner.apply(r, y);
-        let (upper, lower) = (bound::upper(r, error, weight), bound::lower(system, r, error, y));
-        return Solve { iterations: 0, upper, lower, ending };
+    let (mut iterations, mut stuck) = (0, false);
+    let mut ending = if from <= goal && from.is_finite() { Some(Ending::Untouched) } else { None };
+    let mut reached = from;
+    while ending.is_none() {
+        // Below 16u of where it set out the recurrence measures only its own rounding.
+        let blind = T::from_count(16) * T::UNIT_ROUNDOFF;
+        let (target, before) = (larger(goal, blind * blind * from), iterations);
+        if iterations < stop.max_iterations {
+            stuck = iterate(system, preconditioner, v, target, stop.max_iterations, &mut iterations);
+            reached = v.check(system, free);
+        }
+        ending = if reached <= goal {
+            Some(Ending::Converged)
+        } else if reached <= bound::weighted(v.p, v.mu) {
+            Some(Ending::Floor)
+        } else if iterations >= stop.max_iterations {
+            Some(Ending::Capped)
+        } else if stuck || !(reached < T::HALF * from) {
+            let rounding = bound::attainable(system, v.x, v.p, iterations - before, v.mu, v.y);
+            Some(if reached <= rounding { Ending::Floor } else { Ending::Stalled })
+        } else {
+            None
+        };
+        from = reached;
+    }
+    let upper = bound::upper(v.r, v.p, v.mu);
+    preconditioner.apply(v.r, v.y);
+    let lower = bound::lower(system, v.r, v.y, v.b, v.p);
+    Solve { iterations, upper, lower, ending: ending.unwrap_or(Ending::Stalled) }
+}
+
+impl<T: Real> Vectors<'_, T> {
+    /// x = 0 and so r = b, exactly: δ = 0. Answers whether there is nothing to solve.
+    #[inline(never)]
+    fn start(&mut self) -> bool {
+        let mut nothing = true;
+        for (((x, r), p), b) in
+            self.x.iter_mut().zip(self.r.iter_mut()).zip(self.p.iter_mut()).zip(self.b.iter())
+        {
+            (*x, *p) = ([T::ZERO; 3], [T::ZERO; 3]);
+            // b itself; but the sum is not taken for a copy, for which a library routine of 1.5 KiB would be linked.
+            *r = vec3::add([T::ZERO; 3], *b);
+            nothing &= *b == [T::ZERO; 3];
+        }
+        nothing
     }
 
-    // Below 16u of where it set out the recurrence measures only its own rounding.
-    let blind = T::from_count(16) * T::UNIT_ROUNDOFF;
-    let (mut iterations, mut from) = (0, start);
-    loop {
-        let (target, before) = (larger(goal, blind * blind * from), iterations);
-        let stuck = iterate(
-            system,
-            preconditioner,
-            [x, r, p, y],
-            weight,
-            target,
-            stop.max_iterations,
-            &mut iterations,
-        );
+    /// r = b − A x computed anew, δ into p; on a `free` island the momentum equations are repaired first. Answers β.
+    #[inline(never)]
+    fn check<F: Force<T>>(&mut self, system: &System<'_, T, F>, free: bool) -> T {
         if free {
-            keep_momentum(system.inertia, b, x);
+            keep_momentum(system.matrix.inertia, self.b, self.x);
         }
-        bound::residual(system, b, x, r, p);
-        let reached = bound::weighted(r, weight);
-        let floor = bound::weighted(p, weight);
-        let ending = if reached <= goal {
-            Ending::Converged
-        } else if reached <= floor {
-            Ending::Floor
-        } else if iterations >= stop.max_iterations {
-            Ending::Capped
-        } else if stuck || !(reached < T::HALF * from) {
-            let updates = iterations - before;
-            let rounding = bound::attainable(system, x, p, updates, weight, y);
-            if reached <= rounding { Ending::Floor } else { Ending::Stalled }
-        } else {
-            from = reached;
-            continue;
-        };
-        let upper = bound::upper(r, Some(p), weight);
-        preconditioner.apply(r, y);
-        let lower = bound::lower(system, r, Some(p), y);
-        return Solve { iterations, upper, lower, ending };
+        bound::residual(system, self.b, self.x, self.r, self.p);
+        bound::weighted(self.r, self.mu)
     }
 }
 
-/// Iterates until β ≤ target or the number of iterations is used up; answers whether it broke down (pᵀAp ≤ 0 or NaN).
+/// Iterates from r until β ≤ target or the number of iterations is used up; answers whether it broke down (pᵀAp ≤ 0 or
+/// NaN). Leaves z = D⁻¹r in y, unless it broke down.
 #[inline(never)]
 fn iterate<T: Real, F: Force<T>>(
     system: &System<'_, T, F>,
     preconditioner: &impl Preconditioner<T>,
-    [x, r, p, y]: [&mut [Vec3<T>]; 4],
-    weight: &[T],
+    v: &mut Vectors<'_, T>,
     target: T,
     max_iterations: u32,
     iterations: &mut u32,
 ) -> bool {
-    let mut rz = preconditioner.apply(r, p);
-    while *iterations < max_iterations {
-        let curvature = system.apply(p, y);
+    for (p, y) in v.p.iter_mut().zip(v.y.iter_mut()) {
+        (*p, *y) = ([T::ZERO; 3], [T::ZERO; 3]);
+    }
+    // The first sweep has no step to make: it finds z.
+    let (mut step, mut rz) = (T::ZERO, T::ZERO);
+    loop {
+        let (beta, next) = preconditioner.sweep(step, [v.x, v.r, v.p, v.y], v.mu);
+        if !(T::HALF * beta > target) || *iterations >= max_iterations {
+            return false;
+        }
+        let ratio = if rz > T::ZERO { next / rz } else { T::ZERO };
+        for (p, y) in v.p.iter_mut().zip(v.y.iter_mut()) {
+            *p = vec3::add_scaled(*y, ratio, *p);
+            *y = [T::ZERO; 3];
+        }
+        let curvature = system.add_product(v.p, v.y);
         if !(curvature > T::ZERO) {
             return true;
         }
-        let step = rz / curvature;
-        let mut beta = Lanes::new();
-        for (i, ((((x, r), p), y), weight)) in
-            x.iter_mut().zip(r.iter_mut()).zip(p.iter()).zip(y.iter()).zip(weight).enumerate()
-        {
-            *x = vec3::add_scaled(*x, step, *p);
-            *r = vec3::add_scaled(*r, -step, *y);
-            beta.add(i, bound::square(*r, *weight));
-        }
-        *iterations += 1;
-        if !(T::HALF * beta.sum() > target) {
-            return false;
-        }
-        let next = preconditioner.apply(r, y);
-        let ratio = next / rz;
-        for (p, z) in p.iter_mut().zip(y.iter()) {
-            *p = vec3::add_scaled(*z, ratio, *p);
-        }
+        step = next / curvature;
         rz = next;
+        *iterations += 1;
     }
-    false
 }
 
 /// x += c with c = Σ(b − m̃x)/Σm̃: the sum of all rows of A x = b then holds, since internal springs cancel in it. It is

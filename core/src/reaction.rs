@@ -20,7 +20,7 @@ pub(crate) fn reaction<T: Real, L: Law, F: Force<T>>(
     let slot = (*state.slot.get(i)? & !selection::MARK) as usize;
     let mut f = [[T::ZERO; 3]];
     let particle = [i as u32];
-    forces.add(&Rows { first: slot, particle: &particle, state }, &mut f);
+    forces.add(&Rows { first: slot, particle: &particle, state: &state }, &mut f);
     let [mut f] = f;
     if F::DRAGS {
         f = vec3::add_scaled(f, -forces.drag(i, mass), v);

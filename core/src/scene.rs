@@ -10,14 +10,14 @@ use crate::islands::Islands;
 use crate::law::Hookean;
 use crate::memory::{Fixed, Memory, SliceList, Slices};
 use crate::network::{Network, State, network};
-use crate::parts::{Parts, Work};
+use crate::parts::Parts;
 use crate::pins::Motion;
 use crate::real::Real;
 use crate::report::{IslandReport, Report};
 use crate::vec3::Vec3;
 
-/// Up to `N` particles and `S` springs in arrays, to be placed in a `static`: 148 bytes per particle and 44 per spring in
-/// f32, 268 and 68 in f64, and the lengths of the lists.
+/// Up to `N` particles and `S` springs in arrays, to be placed in a `static`: 152 bytes per particle and 40 per spring in
+/// f32, 272 and 64 in f64, and the lengths of the lists.
 pub type Scene<T, const N: usize, const S: usize, L = Hookean> = MassSpring<Fixed<T, N, S, L>>;
 
 /// A scene in two borrowed buffers of any size.
@@ -51,7 +51,8 @@ macro_rules! scene {
             islands: Islands {
                 particle: $particles,
                 list: $particles,
-                ends: $springs,
+                own: $particles,
+                other: $springs,
                 spring: $springs,
                 count: 0,
                 free: 0,
@@ -118,7 +119,7 @@ impl<'a, T: Real, L: crate::Law> SceneIn<'a, T, L> {
     pub const fn needs(particles: usize, springs: usize) -> (usize, usize) {
         (
             particles.saturating_mul(30).saturating_add(springs.saturating_mul(6)),
-            particles.saturating_mul(7).saturating_add(springs.saturating_mul(5)),
+            particles.saturating_mul(8).saturating_add(springs.saturating_mul(4)),
         )
     }
 
@@ -160,7 +161,7 @@ impl<'a, T: Real, L: crate::Law> SceneIn<'a, T, L> {
     ///
     /// ```
     /// use hooke::{LinearlyImplicitEuler, SceneIn};
-    /// let (mut reals, mut words, mut euler) = ([0.0; 66], [0; 19], LinearlyImplicitEuler::new(0.01));
+    /// let (mut reals, mut words, mut euler) = ([0.0; 66], [0; 20], LinearlyImplicitEuler::new(0.01));
     /// let mut scene = SceneIn::<f64>::in_buffers(&mut reals, &mut words, 2, 1).ok_or("too small")?;
     /// let (a, b) = (scene.particle([0.0; 3], 1.0)?, scene.particle([1.0, 0.0, 0.0], 1.0)?);
     /// scene.spring(a, b, 100.0)?;
@@ -199,7 +200,8 @@ impl<'a, T: Real, L: crate::Law> SceneIn<'a, T, L> {
             islands: Islands {
                 particle: cut_flat(words, n, p)?,
                 list: cut(words, n, p)?,
-                ends: cut(words, s, q)?,
+                own: cut_flat(words, n, p)?,
+                other: cut_flat(words, s, q)?,
                 spring: cut_flat(words, s, q)?,
                 count,
                 free,
@@ -257,39 +259,17 @@ impl<M: Memory> MassSpring<M> {
         integrator.advance(self.parts(), motion, &mut watch)
     }
 
-    /// All of the scene as slices, islands renewed if pins or springs have changed.
-    pub fn parts(&mut self) -> Parts<'_, M::Real, M::Law> {
+    /// All of the scene for an integrator, islands renewed if pins or springs have changed.
+    pub fn parts(&mut self) -> Parts<'_, M> {
+        self.renew();
+        Parts { network: &mut self.network, islands: &self.islands, work: &mut self.work }
+    }
+
+    fn renew(&mut self) -> &Islands<M> {
         if !self.islands.current {
             self.islands.renew(&mut self.network);
         }
-        let Self { network, islands, work } = self;
-        Parts {
-            position: &mut network.position,
-            velocity: &mut network.velocity,
-            mass: &network.mass,
-            slot: &network.slot,
-            spring_ends: &network.ends,
-            stiffness: &network.stiffness,
-            rest_length: &network.rest_length,
-            particle: &islands.particle,
-            islands: islands.islands(),
-            ends: &islands.ends,
-            spring: &islands.spring,
-            free: islands.free,
-            edges: islands.edges,
-            x: &mut work.x,
-            work: Work {
-                r: &mut work.r,
-                b: &mut work.b,
-                p: &mut work.p,
-                y: &mut work.y,
-                inertia: &mut work.inertia,
-                mu: &mut work.mu,
-                block: &mut work.block,
-                hessian: &mut work.hessian,
-            },
-            law: PhantomData,
-        }
+        &self.islands
     }
 
     /// A read-only view of particles and springs.
@@ -314,12 +294,12 @@ impl<M: Memory> MassSpring<M> {
 
     /// Number of islands: parts that are solved apart.
     pub fn islands(&mut self) -> usize {
-        self.parts().islands.len()
+        self.renew().count
     }
 
     /// Number of free particles, the unknowns of a step.
     pub fn free_particles(&mut self) -> usize {
-        self.parts().free
+        self.renew().free
     }
 
     /// The force that the support of particle `i` must exert to hold it at rest, N: minus all forces on it in the

@@ -61,7 +61,8 @@ impl<M: Memory> MassSpring<M> {
         let zero = M::Real::ZERO;
         fit(&mut self.islands.particle, n, 0);
         fit(&mut self.islands.list, n, [0; 5]);
-        fit(&mut self.islands.ends, s, [0; 2]);
+        fit(&mut self.islands.own, n, 0);
+        fit(&mut self.islands.other, s, 0);
         fit(&mut self.islands.spring, s, 0);
         for vector in [&mut work.x, &mut work.r, &mut work.b, &mut work.p, &mut work.y] {
             fit(vector, n, [zero; 3]);

@@ -1,18 +1,23 @@
 //! A = M + θh D − sK of one island, restricted to its free particles, as an operator.
 //!
-//! A x = M̃x + Σ_j E_jᵀ(H_j Δ, −H_j Δ), Δ = x_A − x_B, with M̃ = M + θh D diagonal and H_j = αI + w wᵀ scaled by s. Row i
-//! starts with m̃ᵢ xᵢ and adds its springs in their order: pairs, then anchors, then points; that is the definition of
-//! its bits. xᵀAx comes with it as Σ m̃ x² + Σ (α Δ² + (w·Δ)²): with α ≥ 0 a sum of non-negative terms, which rounding
-//! cannot make ≤ 0.
+//! A x = M̃x + Σ_j E_jᵀ(H_j Δ, −H_j Δ), Δ = x_A − x_B, with M̃ = M + θh D diagonal and H_j = αI + w wᵀ scaled by s. Each
+//! spring belongs to the row of its lower free end. Row i of A x is
 //!
-//! Cost per product: a difference, a dot and a scatter per spring (23 flops, and 9 for the form), 9 per particle; each
-//! point spring is asked once in the islands that one holds. Memory: 4 numbers and 2 indices per spring, 1 number per
-//! particle. Source: the mass-spring lecture (linearly-implicit time
-//! integration).
+//! ((0 − Σ_{rows a < i} H Δ) + m̃ᵢxᵢ) + Σ_{its own springs} H Δ,
+//!
+//! summed in this order, springs of a row in theirs; then point springs. That is the definition of its bits. It starts at
+//! +0, so a term that is ±0 changes nothing, and a layout that has zeros where there is no spring gives the same bits.
+//! xᵀAx comes with it: row i adds m̃ᵢ|xᵢ|² + Σ_{own} (α|Δ|² + (w·Δ)²), with α ≥ 0 a sum of non-negative terms, which
+//! rounding cannot make ≤ 0.
+//!
+//! Cost per product: 17 flops per spring and 9 more for the form, 3 adds at each end; 12 per particle. Each point spring is
+//! asked once in the islands that one holds. Memory: 4 numbers and an index per spring, 1 number and a count per
+//! particle. Source: the mass-spring lecture (linearly-implicit time integration).
 
-use crate::force::{Force, Rows};
+use crate::force::Force;
 use crate::hessian::Hessian;
 use crate::lanes::Lanes;
+use crate::parts::Matrix;
 use crate::real::Real;
 use crate::sym3::Sym3;
 use crate::vec3::{self, Vec3};
@@ -25,59 +30,62 @@ pub trait Operator<T: Real> {
 
 /// A of one island, as assembled for one step.
 pub struct System<'a, T, F> {
-    /// M + θh D, one number per row
-    pub(crate) inertia: &'a [T],
-    /// Local (a, b), a < b, of springs with two free ends
-    pub(crate) pairs: &'a [[u32; 2]],
-    pub(crate) pair_hessians: &'a [[T; 4]],
-    /// (a, –) of springs with one free end
-    pub(crate) anchors: &'a [[u32; 2]],
-    pub(crate) anchor_hessians: &'a [[T; 4]],
+    pub(crate) matrix: &'a Matrix<'a, T>,
     /// Point springs, if the set of forces has any
     pub(crate) forces: &'a F,
     /// Does any of them hold this island?
     pub(crate) points: bool,
-    pub(crate) rows: Rows<'a, T>,
 }
 
-impl<'a, T: Real, F: Force<T>> System<'a, T, F> {
-    /// The operator over what assembling left in an island's lists.
-    pub(crate) fn new(
-        rows: Rows<'a, T>,
-        [pairs, anchors]: [&'a [[u32; 2]]; 2],
-        inertia: &'a [T],
-        hessians: &'a [[T; 4]],
-        forces: &'a F,
-        points: bool,
-    ) -> Self {
-        let (pair_hessians, anchor_hessians) =
-            hessians.split_at_checked(pairs.len()).unwrap_or((hessians, &[]));
-        Self { inertia, pairs, pair_hessians, anchors, anchor_hessians, forces, points, rows }
-    }
-
-    /// The springs with two free ends: (a, b, H).
+impl<T: Real, F: Force<T>> System<'_, T, F> {
+    /// The point springs: (row, H).
     #[inline(always)]
-    pub(crate) fn each_pair(&self) -> impl Iterator<Item = (usize, usize, Hessian<T>)> {
-        self.pairs
-            .iter()
-            .zip(self.pair_hessians)
-            .map(|(&[a, b], h)| (a as usize, b as usize, Hessian::unpack(*h)))
-    }
-
-    /// What adds to one diagonal block only: springs with one free end, and point springs.
-    #[inline(always)]
-    pub(crate) fn each_anchor(&self, mut visit: impl FnMut(usize, Hessian<T>)) {
-        for (&[a, _], h) in self.anchors.iter().zip(self.anchor_hessians) {
-            visit(a as usize, Hessian::unpack(*h));
-        }
+    pub(crate) fn each_point(&self, mut visit: impl FnMut(usize, Hessian<T>)) {
         if F::ANCHORS && self.points {
-            self.forces.hessians(&self.rows, &mut visit);
+            self.forces.hessians(&self.matrix.rows, &mut visit);
         }
+    }
+
+    /// y += A x, where y is +0; answers xᵀAx.
+    #[inline(never)] // One copy, with a frame of its own.
+    pub(crate) fn add_product(&self, x: &[Vec3<T>], y: &mut [Vec3<T>]) -> T {
+        let mut form = Lanes::new();
+        let mut springs = self.matrix.other.iter().zip(self.matrix.hessian.iter());
+        for (row, ((own, m), x_a)) in
+            self.matrix.own.iter().zip(self.matrix.inertia.iter()).zip(x).enumerate()
+        {
+            let mut energy = *m * vec3::dot(*x_a, *x_a);
+            let mut sum = y.get(row).map_or([T::ZERO; 3], |y| vec3::add_scaled(*y, *m, *x_a));
+            for (other, h) in springs.by_ref().take(*own as usize) {
+                let other = *other as usize;
+                // A pin does not move.
+                let delta = x.get(other).map_or(*x_a, |x_b| vec3::sub(*x_a, *x_b));
+                let (product, form) = Hessian::unpack(*h).mul_and_form(delta);
+                sum = vec3::add(sum, product);
+                energy += form;
+                if let Some(y) = y.get_mut(other) {
+                    *y = vec3::sub(*y, product);
+                }
+            }
+            if let Some(y) = y.get_mut(row) {
+                *y = sum;
+            }
+            form.add(row, energy);
+        }
+        self.each_point(|row, h| {
+            if let (Some(x), Some(y)) = (x.get(row), y.get_mut(row)) {
+                let (product, energy) = h.mul_and_form(*x);
+                *y = vec3::add(*y, product);
+                form.add(row, energy);
+            }
+        });
+        form.sum()
     }
 
     /// Writes the 3×3 blocks of A's diagonal: M̃ + Σ H.
+    #[inline(never)]
     pub(crate) fn diagonal(&self, blocks: &mut [[T; 6]]) {
-        for (block, m) in blocks.iter_mut().zip(self.inertia) {
+        for (block, m) in blocks.iter_mut().zip(self.matrix.inertia.iter()) {
             *block = Sym3::scalar(*m).0;
         }
         let mut add = |row: usize, h: Hessian<T>| {
@@ -85,63 +93,61 @@ impl<'a, T: Real, F: Force<T>> System<'a, T, F> {
                 *block = Sym3(*block).plus_scalar(h.alpha).plus_outer(h.w).0;
             }
         };
-        for (a, b, h) in self.each_pair() {
-            add(a, h);
-            add(b, h);
+        self.each_spring(|row, other, h| {
+            for end in [row, other] {
+                add(end, h);
+            }
+        });
+        self.each_point(add);
+    }
+
+    /// The springs in their order: (row, other end, H).
+    #[inline(always)]
+    pub(crate) fn each_spring(&self, mut visit: impl FnMut(usize, usize, Hessian<T>)) {
+        let mut springs = self.matrix.other.iter().zip(self.matrix.hessian.iter());
+        for (row, own) in self.matrix.own.iter().enumerate() {
+            for (other, h) in springs.by_ref().take(*own as usize) {
+                visit(row, *other as usize, Hessian::unpack(*h));
+            }
         }
-        self.each_anchor(add);
     }
 
     /// Number of unknown particles.
     pub fn particles(&self) -> usize {
-        self.inertia.len()
+        self.matrix.inertia.len()
     }
 
     /// The particle (in the caller's numbering) of a row.
     pub fn particle(&self, row: usize) -> Option<usize> {
-        self.rows.particle.get(row).map(|i| *i as usize)
+        self.matrix.rows.particle.get(row).map(|i| *i as usize)
     }
 
     /// Visits the 3×3 blocks of A as (row, column, block), local rows; a block met twice is to be added. For export,
     /// tests and comparison with assembled solvers: 4 blocks per spring and one per particle.
     pub fn blocks(&self, mut visit: impl FnMut(usize, usize, [[T; 3]; 3])) {
-        for (i, m) in self.inertia.iter().enumerate() {
+        for (i, m) in self.matrix.inertia.iter().enumerate() {
             visit(i, i, Sym3::scalar(*m).dense());
         }
-        for (a, b, h) in self.each_pair() {
+        self.each_spring(|a, b, h| {
             let block = h.dense();
-            let minus = block.map(|row| row.map(|x| -x));
             visit(a, a, block);
-            visit(a, b, minus);
-            visit(b, a, minus);
-            visit(b, b, block);
-        }
-        self.each_anchor(|a, h| visit(a, a, h.dense()));
+            if b < self.particles() {
+                let minus = block.map(|row| row.map(|x| -x));
+                visit(a, b, minus);
+                visit(b, a, minus);
+                visit(b, b, block);
+            }
+        });
+        self.each_point(|a, h| visit(a, a, h.dense()));
     }
 }
 
 impl<T: Real, F: Force<T>> Operator<T> for System<'_, T, F> {
     #[inline]
     fn apply(&self, x: &[Vec3<T>], y: &mut [Vec3<T>]) -> T {
-        let mut form = Lanes::new();
-        for (i, ((y, x), m)) in y.iter_mut().zip(x).zip(self.inertia).enumerate() {
-            *y = vec3::scale(*m, *x);
-            form.add(i, vec3::dot(*x, *y));
+        for y in y.iter_mut() {
+            *y = [T::ZERO; 3];
         }
-        for (e, (a, b, h)) in self.each_pair().enumerate() {
-            let (Some(x_a), Some(x_b)) = (x.get(a), x.get(b)) else { continue };
-            let (product, energy) = h.mul_and_form(vec3::sub(*x_a, *x_b));
-            form.add(e, energy);
-            crate::selection::scatter(a, b, product, y);
-        }
-        let mut e = self.pairs.len();
-        self.each_anchor(|a, h| {
-            let (Some(x), Some(y)) = (x.get(a), y.get_mut(a)) else { return };
-            let (product, energy) = h.mul_and_form(*x);
-            *y = vec3::add(*y, product);
-            form.add(e, energy);
-            e += 1;
-        });
-        form.sum()
+        self.add_product(x, y)
     }
 }

@@ -48,3 +48,9 @@ pub fn cross<T: Real>(a: Vec3<T>, b: Vec3<T>) -> Vec3<T> {
 pub fn is_finite<T: Real>(a: Vec3<T>) -> bool {
     a[0].is_finite() && a[1].is_finite() && a[2].is_finite()
 }
+
+/// f of each component, written out: an array's own `map` is a loop through memory where code is to be small.
+#[inline(always)]
+pub(crate) fn map<T: Real>(a: Vec3<T>, f: impl Fn(T) -> T) -> Vec3<T> {
+    [f(a[0]), f(a[1]), f(a[2])]
+}

@@ -71,33 +71,30 @@ impl Stored {
         };
         let constants = |k: f64, l0: f64| Spring { stiffness: T::from_f64(k), rest_length: T::from_f64(l0) };
         let x = |i: usize| real3::<T>(data.position[i]);
-        for s in &data.springs {
-            let (low, high) = (s.a.min(s.b), s.a.max(s.b));
-            if let (Some(a), Some(b)) = (row_of(low), row_of(high)) {
+        // Row after row, the springs whose lower free end it is.
+        for (a, s) in (0..n).flat_map(|a| data.springs.iter().map(move |s| (a, s))) {
+            let rows = [s.a, s.b].map(row_of);
+            if rows.iter().flatten().min() != Some(&a) {
+                continue;
+            }
+            let stretched = Stretched::new(difference(x(s.a), x(s.b)));
+            let mut take = |block| take(block, constants(s.k, s.l0), stretched, T::from_f64(s.c));
+            if let [Some(one), Some(other)] = rows {
+                let b = one.max(other);
                 let blocks: Vec<_> = (0..4).map(|_| visited.next().unwrap()).collect();
                 let places: Vec<(usize, usize)> = blocks.iter().map(|(r, c, _)| (*r, *c)).collect();
                 assert_eq!(places, [(a, a), (a, b), (b, a), (b, b)]);
                 assert_eq!(blocks[0].2, blocks[3].2);
                 assert_eq!(blocks[1].2, blocks[0].2.map(|row| row.map(|x| -x)));
                 assert_eq!(blocks[1].2, blocks[2].2);
-                let stretched = Stretched::new(difference(x(low), x(high)));
-                let h = take(blocks[0].2, constants(s.k, s.l0), stretched, T::from_f64(s.c));
+                let h = take(blocks[0].2);
                 for (r, c, sign) in [(a, a, 1.0), (a, b, -1.0), (b, a, -1.0), (b, b, 1.0)] {
                     add(&mut matrix, r, c, &h, sign);
                 }
-            }
-        }
-        for s in &data.springs {
-            if data.pinned[s.a] == data.pinned[s.b] {
-                continue;
-            }
-            let (free, pin) = if data.pinned[s.a] { (s.b, s.a) } else { (s.a, s.b) };
-            if let Some(a) = row_of(free) {
+            } else {
                 let (r, c, block) = visited.next().unwrap();
                 assert_eq!((r, c), (a, a));
-                let stretched = Stretched::new(difference(x(free), x(pin)));
-                let h = take(block, constants(s.k, s.l0), stretched, T::from_f64(s.c));
-                add(&mut matrix, a, a, &h, 1.0);
+                add(&mut matrix, a, a, &take(block), 1.0);
             }
         }
         for p in &data.points {

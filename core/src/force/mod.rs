@@ -30,7 +30,7 @@ pub struct Rows<'a, T> {
     /// The particle of each row.
     pub(crate) particle: &'a [u32],
     /// Where all particles are.
-    pub(crate) state: State<'a, T>,
+    pub(crate) state: &'a State<'a, T>,
 }
 
 impl<'a, T: Real> Rows<'a, T> {
@@ -50,7 +50,7 @@ impl<'a, T: Real> Rows<'a, T> {
     /// The whole state.
     #[inline]
     pub fn state(&self) -> State<'a, T> {
-        self.state
+        *self.state
     }
 }
 

@@ -69,7 +69,7 @@ impl<T: Real> Force<T> for PointSpring<T> {
 
     fn add(&self, rows: &Rows<'_, T>, f: &mut [Vec3<T>]) {
         let Some(f) = rows.row(self.particle).and_then(|row| f.get_mut(row)) else { return };
-        if let Some(stretched) = self.stretched(&rows.state) {
+        if let Some(stretched) = self.stretched(rows.state) {
             *f = vec3::add_scaled(*f, -self.spring.tension(stretched.length), stretched.direction);
         }
     }
@@ -78,7 +78,7 @@ impl<T: Real> Force<T> for PointSpring<T> {
         if rows.row(self.particle).is_none() {
             return 0;
         }
-        let Some(stretched) = self.stretched(&rows.state) else { return 0 };
+        let Some(stretched) = self.stretched(rows.state) else { return 0 };
         self.hessian = Hessian::new(self.spring, stretched, T::ZERO, scaling);
         u32::from(stretched.length == T::ZERO && self.spring.rest_length > T::ZERO)
     }
@@ -86,7 +86,7 @@ impl<T: Real> Force<T> for PointSpring<T> {
     fn clamp(&mut self, rows: &Rows<'_, T>, scaling: Scaling<T>, fails: impl Fn(usize) -> bool) -> u32 {
         if !(self.hessian.alpha >= T::ZERO)
             && rows.row(self.particle).is_some_and(fails)
-            && let Some(stretched) = self.stretched(&rows.state)
+            && let Some(stretched) = self.stretched(rows.state)
         {
             self.hessian = Hessian::clamped(self.spring, stretched, T::ZERO, scaling);
             return 1;

@@ -13,14 +13,16 @@
 //! Source: the mass-spring lecture (linearly-implicit time integration); Baraff & Witkin 1998, §3.
 
 use super::Integrator;
-use crate::assembly::{assemble, prepare};
+use crate::assembly::{Assembled, assemble, prepare};
 use crate::error::StepError;
 use crate::force::{Force, Gravity};
 use crate::hessian::Scaling;
+use crate::islands::Islands;
 use crate::jacobi::Jacobi;
-use crate::law::Law;
-use crate::parts::{IslandParts, Parts, Work};
-use crate::pcg::{self, Stop, Vectors};
+use crate::memory::Memory;
+use crate::network::Network;
+use crate::parts::{IslandParts, Parts};
+use crate::pcg::{self, Stop};
 use crate::pins::Motion;
 use crate::real::Real;
 use crate::report::{IslandReport, Report};
@@ -83,9 +85,9 @@ impl<T: Real, F> LinearlyImplicitEuler<T, F> {
 impl<T: Real, F: Force<T>> LinearlyImplicitEuler<T, F> {
     /// Refuses what no step can be made with, writes the pins' velocities over this step behind the unknowns, and asks
     /// the forces.
-    fn begin<L: Law>(
+    fn begin<M: Memory<Real = T>>(
         &self,
-        parts: &mut Parts<'_, T, L>,
+        parts: &mut Parts<'_, M>,
         motion: &[Motion<T>],
     ) -> Result<Scaling<T>, StepError> {
         let h = self.dt;
@@ -96,23 +98,24 @@ impl<T: Real, F: Force<T>> LinearlyImplicitEuler<T, F> {
         if !valid(self.stop.relative) || !valid(self.stop.absolute) {
             return Err(StepError::Tolerance);
         }
-        self.forces.check(parts.mass.len(), parts.spring_ends.len())?;
-        for v in parts.x.iter_mut().skip(parts.free) {
+        let Parts { network, islands, work } = parts;
+        self.forces.check(network.mass.len(), network.ends.len())?;
+        for v in work.x.iter_mut().skip(islands.free) {
             *v = [T::ZERO; 3];
         }
         for m in motion {
-            let slot = parts.slot.get(m.particle).filter(|slot| **slot & crate::selection::MARK != 0);
+            let slot = network.slot.get(m.particle).filter(|slot| **slot & crate::selection::MARK != 0);
             let slot = slot.ok_or(StepError::NotPinned(m.particle))? & !crate::selection::MARK;
-            let (Some(v), Some(b)) = (parts.x.get_mut(slot as usize), parts.position.get(m.particle)) else {
+            let (Some(v), Some(b)) = (work.x.get_mut(slot as usize), network.position.get(m.particle)) else {
                 return Err(StepError::NotPinned(m.particle));
             };
-            *v = vec3::sub(m.position, *b).map(|d| d / h);
+            *v = vec3::map(vec3::sub(m.position, *b), |d| d / h);
             if !vec3::is_finite(m.position) || !vec3::is_finite(m.velocity) || !vec3::is_finite(*v) {
                 return Err(StepError::Motion(m.particle));
             }
         }
         let scaling = Scaling { stiffness: h * h, damping: h };
-        prepare(parts, &self.forces, scaling);
+        prepare(&islands.all_rows(&network.state()), *work, &self.forces, h, scaling);
         Ok(scaling)
     }
 
@@ -121,70 +124,76 @@ impl<T: Real, F: Force<T>> LinearlyImplicitEuler<T, F> {
     ///
     /// # Errors
     /// As for a step: dt, a tolerance, a force or a motion is not valid.
-    pub fn inspect<L: Law>(
+    pub fn inspect<M: Memory<Real = T>>(
         &mut self,
-        mut parts: Parts<'_, T, L>,
+        mut parts: Parts<'_, M>,
         motion: &[Motion<T>],
         mut visit: impl FnMut(&System<'_, T, F>, &[Vec3<T>], &[T]),
     ) -> Result<(), StepError> {
         let scaling = self.begin(&mut parts, motion)?;
-        for k in 0..parts.islands.len() {
-            let Some(mut island) = parts.island(k) else { continue };
-            let assembled = assemble::<T, F, L>(&mut island, &mut self.forces, self.dt, scaling)?;
-            let IslandParts { rows, pairs, anchors, work: Work { b, inertia, mu, hessian, .. }, .. } = island;
-            let system =
-                System::new(rows, [pairs, anchors], inertia, hessian, &self.forces, assembled.points);
-            visit(&system, b, mu);
+        let Parts { network, islands, work } = parts;
+        let state = network.state();
+        for k in 0..islands.count {
+            let mut island = islands.island(k, work, &state);
+            let Assembled { points, .. } =
+                assemble::<T, F, M::Law>(&mut island, &mut self.forces, self.dt, scaling)?;
+            let IslandParts { matrix, vectors, .. } = &island;
+            let system = System { matrix, forces: &self.forces, points };
+            visit(&system, vectors.b, vectors.mu);
         }
         Ok(())
     }
 }
 
 impl<T: Real, F: Force<T>> Integrator<T> for LinearlyImplicitEuler<T, F> {
-    fn advance<L: Law>(
+    fn advance<M: Memory<Real = T>>(
         &mut self,
-        mut parts: Parts<'_, T, L>,
+        mut parts: Parts<'_, M>,
         motion: &[Motion<T>],
         watch: &mut impl FnMut(&IslandReport<T>),
     ) -> Result<Report<T>, StepError> {
         let scaling = self.begin(&mut parts, motion)?;
-        let mut report = Report::new(parts.spring_ends.len() - parts.edges);
-        for k in 0..parts.islands.len() {
-            let Some(mut island) = parts.island(k) else { continue };
-            let assembled = assemble::<T, F, L>(&mut island, &mut self.forces, self.dt, scaling)?;
-            let IslandParts { rows, pairs, anchors, x, work, .. } = island;
-            let Work { r, b, p, y, inertia, mu, block, hessian } = work;
-            let system =
-                System::new(rows, [pairs, anchors], inertia, hessian, &self.forces, assembled.points);
+        let Parts { network, islands, work } = parts;
+        let state = network.state();
+        let mut report = Report::new(state.springs() - islands.edges);
+        for k in 0..islands.count {
+            let mut island = islands.island(k, work, &state);
+            let Assembled { clamped, certified, points, free } =
+                assemble::<T, F, M::Law>(&mut island, &mut self.forces, self.dt, scaling)?;
+            let IslandParts { matrix, vectors, block, .. } = &mut island;
+            let system = System { matrix, forces: &self.forces, points };
             let jacobi = Jacobi::new(&system, block);
-            for weight in mu.iter_mut() {
-                *weight = T::ONE / *weight;
-            }
-            let vectors = Vectors { b, x, r, p, y, weight: mu };
-            let solve = pcg::solve(&system, &jacobi, vectors, &self.stop, assembled.free);
-            let first_particle = rows.particle.first().map_or(0, |i| *i as usize);
+            let solve = pcg::solve(&system, &jacobi, vectors, &self.stop, free);
+            let first_particle = matrix.rows.particle.first().map_or(0, |i| *i as usize);
             if !solve.upper.is_finite() {
                 return Err(StepError::NotFinite(first_particle));
             }
             let island = IslandReport {
                 first_particle,
-                particles: rows.particle.len(),
-                clamped: assembled.clamped,
-                certified: assembled.certified,
+                particles: matrix.rows.particle.len(),
+                clamped,
+                certified,
                 solve,
             };
             report.add(&island);
             watch(&island);
         }
-        commit(parts, self.dt, motion)?;
+        commit(network, islands, &work.x, self.dt, motion)?;
         Ok(report)
     }
 }
 
 /// q̇⁺ = q̇ + Δ, q⁺ = q + h q̇⁺ on free particles; b⁺, ḃ⁺ on pins. Nothing is written unless all of it is finite.
 #[inline(never)]
-fn commit<T: Real, L: Law>(parts: Parts<'_, T, L>, h: T, motion: &[Motion<T>]) -> Result<(), StepError> {
-    let Parts { position, velocity, particle, free, x, .. } = parts;
+fn commit<M: Memory<Real = T>, T: Real>(
+    network: &mut Network<M>,
+    islands: &Islands<M>,
+    x: &[Vec3<T>],
+    h: T,
+    motion: &[Motion<T>],
+) -> Result<(), StepError> {
+    let Network { position, velocity, .. } = network;
+    let (particle, free) = (&islands.particle, islands.free);
     for (i, change) in particle.iter().zip(x.iter()).take(free) {
         let i = *i as usize;
         let (Some(q), Some(v)) = (position.get(i), velocity.get(i)) else { continue };

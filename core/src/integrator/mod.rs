@@ -5,7 +5,7 @@ mod linearly_implicit_euler;
 pub use linearly_implicit_euler::LinearlyImplicitEuler;
 
 use crate::error::StepError;
-use crate::law::Law;
+use crate::memory::Memory;
 use crate::parts::Parts;
 use crate::pins::Motion;
 use crate::real::Real;
@@ -18,9 +18,9 @@ pub trait Integrator<T: Real> {
     ///
     /// # Errors
     /// [`StepError`], and then nothing has changed but the scratch of forces.
-    fn advance<L: Law>(
+    fn advance<M: Memory<Real = T>>(
         &mut self,
-        parts: Parts<'_, T, L>,
+        parts: Parts<'_, M>,
         motion: &[Motion<T>],
         watch: &mut impl FnMut(&IslandReport<T>),
     ) -> Result<Report<T>, StepError>;
