@@ -20,7 +20,8 @@ const _: () = assert!(size_of::<Large>() > 50 * STACK);
 /// One of the tests below in a process of its own, since an overflow of the stack ends the process.
 fn alone(test: &str) -> Output {
     let program = std::env::current_exe().unwrap();
-    let output = Command::new(program).args(["--exact", test, "--ignored", "--test-threads=1"]).output().unwrap();
+    let output =
+        Command::new(program).args(["--exact", test, "--ignored", "--test-threads=1"]).output().unwrap();
     let text = String::from_utf8_lossy(&output.stdout);
     assert!(text.contains("running 1 test"), "there is no {test}: {text}");
     output
