@@ -54,7 +54,6 @@ fn in_its_static() {
 #[test]
 #[ignore = "run by a test above"]
 fn by_value() {
-    #[expect(clippy::large_stack_frames)]
     fn run() {
         let mut scene = Large::new();
         build_and_step(std::hint::black_box(&mut scene));
