@@ -1,8 +1,9 @@
 #!/usr/bin/env bash
 # Writes src/double.rs from src/single.rs and include/hooke.h from both; with --check compares instead. The header needs
-# cbindgen (`cargo install --locked cbindgen@0.29.2`); without it that part is skipped.
+# cbindgen, which is installed into the target folder where it is absent.
 set -euo pipefail
 cd "$(dirname "$0")"
+source ./tools.sh
 new=$(mktemp -d)
 trap 'rm -r "$new"' EXIT
 
@@ -18,8 +19,8 @@ settle() { # made, kept
 [ "${1:-}" != --check ] || check=1
 settle "$new/double.rs" src/double.rs
 
-if ! command -v cbindgen >/dev/null; then
-    echo "c: header not compared: needs 'cargo install --locked cbindgen@0.29.2'"
+if ! cbindgen_here; then
+    skipped "the header needs cbindgen"
     exit
 fi
 cbindgen --quiet --config cbindgen.toml --output "$new/hooke.h" .
@@ -27,3 +28,4 @@ cbindgen --quiet --config cbindgen.toml --output "$new/hooke.h" .
 sed -E -i -e '/^typedef struct (Options|Report|Motion|Energies)_f(32|64) hooke_/d' \
     -e 's/\b(Options|Report|Motion|Energies)_(f32|f64)\b/hooke_\2_\L\1/g' "$new/hooke.h"
 settle "$new/hooke.h" include/hooke.h
+[ -z "${check:-}" ] || echo "c: header and double.rs are those of single.rs"

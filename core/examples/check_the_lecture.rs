@@ -6,6 +6,12 @@ use hooke::vec3::{cross, dot, sub};
 use hooke::{LinearlyImplicitEuler, Scene, Spring};
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
+    one_spring();
+    oscillator()?;
+    free_triangle()
+}
+
+fn one_spring() {
     let (a, b) = ([0.3_f64, -0.2, 0.9], [1.1, 0.5, 0.4]);
     let spring = Spring { stiffness: 40.0, rest_length: 0.7 };
     let d = sub(a, b);
@@ -39,7 +45,9 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         across[0] / sideways[0],
         h.alpha
     );
+}
 
+fn oscillator() -> Result<(), Box<dyn std::error::Error>> {
     println!("\nThe lecture's oscillator: a wall, k = 1 N/m, l₀ = 1 m, 1 kg at x = 1.5 m");
     let mut scene: Scene<f64, 2, 1> = Scene::new();
     let wall = scene.particle([0.0; 3], 1.0)?;
@@ -63,7 +71,10 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         );
         before = now;
     }
+    Ok(())
+}
 
+fn free_triangle() -> Result<(), Box<dyn std::error::Error>> {
     println!("\nA free triangle: K·1 = 0 and momentum stays");
     let mut triangle: Scene<f64, 3, 3> = Scene::new();
     for (x, v) in

@@ -1,8 +1,8 @@
 //! Every error, with the index it names; and the state as it was, bit for bit.
 
 use hooke::{
-    Drag, EditError, Gravity, LinearlyImplicitEuler, Motion, PointForce, PointSpring, Scene, Snapshot,
-    Spring, SpringDamping, StepError,
+    Drag, EditError, Gravity, LinearlyImplicitEuler, MassSpring, Memory, Motion, PointForce, PointSpring,
+    Real, Report, Scene, SceneIn, Snapshot, Spring, SpringDamping, StepError,
 };
 use hooke_tests::build;
 use hooke_tests::vec_memory::VecScene;
@@ -26,15 +26,15 @@ fn scene() -> VecScene<f64> {
 type Seen = (Vec<[u64; 6]>, Vec<u64>, Vec<(u64, u64)>, Vec<Option<(usize, usize)>>, Vec<bool>);
 
 /// All that an edit can change.
-fn seen(scene: &VecScene<f64>) -> Seen {
+fn seen<M: Memory>(scene: &MassSpring<M>) -> Seen {
     let state = scene.state();
     let constants = |j| {
         let Spring { stiffness, rest_length } = state.spring(j);
-        (stiffness.to_bits(), rest_length.to_bits())
+        (stiffness.to_f64().to_bits(), rest_length.to_f64().to_bits())
     };
     (
         build::bits(scene),
-        state.mass.iter().map(|m| m.to_bits()).collect(),
+        state.mass.iter().map(|m| m.to_f64().to_bits()).collect(),
         (0..state.springs()).map(constants).collect(),
         (0..state.springs()).map(|j| state.ends(j)).collect(),
         (0..state.mass.len()).map(|i| state.is_pinned(i)).collect(),
@@ -132,30 +132,44 @@ fn pins_have_no_velocity_of_their_own_and_only_pins_are_released() {
     refused(|s| s.release(2), EditError::NotPinned(2));
 }
 
-#[test]
-fn a_full_scene_refuses_more_names_its_capacity_and_goes_on() {
-    let mut full = Scene::<f64, 2, 1>::new();
-    full.particle([0.0; 3], 1.0).unwrap();
-    full.particle([1.0, 0.0, 0.0], 1.0).unwrap();
-    full.spring(0, 1, 10.0).unwrap();
-    full.set_velocity(1, [1.0, 0.0, 0.0]).unwrap();
-    assert_eq!(full.particle([2.0, 0.0, 0.0], 1.0), Err(EditError::ParticlesFull(2)));
-    assert_eq!(full.spring(1, 0, 10.0), Err(EditError::SpringsFull(1)));
-    assert_eq!((full.positions().len(), full.state().springs()), (2, 1));
-    full.step(&mut LinearlyImplicitEuler::new(0.01)).unwrap();
+/// Fills a scene for 4 particles and 3 springs to the brim, and tries one more of each, at each stage; the same is built
+/// where there is room to spare, without a refused call. After each stage, and 20 steps later, they are alike bit for bit.
+fn overfill<M: Memory>(full: &mut MassSpring<M>) {
+    let real = M::Real::from_f64;
+    let at = |x: f64| [real(x), M::Real::ZERO, real(0.1)];
+    let mut roomy = VecScene::<M::Real>::empty();
+    for i in 0..4 {
+        assert_eq!(full.particle(at(i as f64), real(1.0)), Ok(i));
+        roomy.particle(at(i as f64), real(1.0)).unwrap();
+    }
+    assert_eq!(full.particle(at(4.0), real(1.0)), Err(EditError::ParticlesFull(4)));
+    assert_eq!(seen(full), seen(&roomy));
+    for j in 0..3 {
+        assert_eq!(full.spring(j, j + 1, real(10.0)), Ok(j));
+        roomy.spring(j, j + 1, real(10.0)).unwrap();
+    }
+    let spring = Spring { stiffness: real(10.0), rest_length: real(1.0) };
+    assert_eq!(full.spring(0, 3, real(10.0)), Err(EditError::SpringsFull(3)));
+    assert_eq!(full.spring_with(3, 0, spring), Err(EditError::SpringsFull(3)));
+    assert_eq!(full.particle(at(5.0), real(1.0)), Err(EditError::ParticlesFull(4)));
+    assert_eq!(seen(full), seen(&roomy));
+    full.pin(0).unwrap();
+    roomy.pin(0).unwrap();
+    let mut euler = LinearlyImplicitEuler::new(real(0.01)).gravity([0.0, -9.81, 0.0].map(real));
+    for _ in 0..20 {
+        assert_eq!(full.step(&mut euler), roomy.step(&mut euler));
+        assert_eq!(full.spring(0, 2, real(10.0)), Err(EditError::SpringsFull(3)), "while it runs, too");
+        assert_eq!(seen(full), seen(&roomy));
+    }
 }
 
 #[test]
-fn full_borrowed_buffers_refuse_more_and_go_on() {
-    let (reals, words) = hooke::SceneIn::<f64>::needs(2, 1);
+fn beyond_the_capacity_is_an_error_at_that_call_and_everything_before_it_is_intact() {
+    overfill(&mut Scene::<f32, 4, 3>::new());
+    overfill(&mut Scene::<f64, 4, 3>::new());
+    let (reals, words) = SceneIn::<f64>::needs(4, 3);
     let (mut reals, mut words) = (vec![0.0; reals], vec![0; words]);
-    let mut full = hooke::SceneIn::<f64>::in_buffers(&mut reals, &mut words, 2, 1).unwrap();
-    full.particle([0.0; 3], 1.0).unwrap();
-    full.particle([1.0, 0.0, 0.0], 1.0).unwrap();
-    full.spring(0, 1, 10.0).unwrap();
-    assert_eq!(full.particle([2.0, 0.0, 0.0], 1.0), Err(EditError::ParticlesFull(2)));
-    assert_eq!(full.spring_with(0, 1, SPRING), Err(EditError::SpringsFull(1)));
-    full.step(&mut LinearlyImplicitEuler::new(0.01)).unwrap();
+    overfill(&mut SceneIn::<f64>::in_buffers(&mut reals, &mut words, 4, 3).unwrap());
 }
 
 #[test]
@@ -247,6 +261,50 @@ fn motions_of_particles_that_are_not_pinned_or_bad_are_refused_and_named() {
     }
     let fast = Motion { particle: 0, position: [0.0; 3], velocity: [f64::NAN, 0.0, 0.0] };
     fails!(LinearlyImplicitEuler::new(0.01), &[fast], StepError::Motion(0));
+}
+
+/// 60 steps of a rope whose top a sensor moves; where `loose`, every reading is preceded by bad ones.
+fn follow<T: Real>(loose: bool) -> Vec<(Seen, Report<T>)> {
+    let real = T::from_f64;
+    let mut scene = VecScene::<T>::empty();
+    for i in 0..8 {
+        scene.particle([T::ZERO, real(-0.1 * f64::from(i)), T::ZERO], real(0.01)).unwrap();
+    }
+    for i in 0..7 {
+        scene.spring(i, i + 1, real(1_000.0)).unwrap();
+    }
+    scene.pin(0).unwrap();
+    let mut euler = LinearlyImplicitEuler::new(real(0.01)).gravity([0.0, -9.81, 0.0].map(real));
+    let mut answers = Vec::new();
+    for tick in 1..=60 {
+        let t = 0.01 * f64::from(tick);
+        let good = Motion {
+            particle: 0,
+            position: [t * t, 0.1 * t, 0.0].map(real),
+            velocity: [2.0 * t, 0.1, 0.0].map(real),
+        };
+        for (bad, d) in BAD.into_iter().flat_map(|bad| (0..3).map(move |d| (bad, d))).filter(|_| loose) {
+            let before = seen(&scene);
+            let (mut place, mut speed) = (good, good);
+            place.position[d] = real(bad);
+            speed.velocity[d] = real(bad);
+            for motion in [place, speed] {
+                assert_eq!(scene.step_moving(&mut euler, &[motion]), Err(StepError::Motion(0)));
+                // A good motion beside it does not help.
+                assert_eq!(scene.step_moving(&mut euler, &[good, motion]), Err(StepError::Motion(0)));
+                assert_eq!(seen(&scene), before);
+            }
+        }
+        let report = scene.step_moving(&mut euler, &[good]).unwrap();
+        answers.push((seen(&scene), report));
+    }
+    answers
+}
+
+#[test]
+fn a_sensor_that_delivers_nan_is_refused_and_the_next_good_steps_have_the_bits_they_would_have_had() {
+    assert_eq!(follow::<f32>(true), follow::<f32>(false));
+    assert_eq!(follow::<f64>(true), follow::<f64>(false));
 }
 
 #[test]

@@ -13,6 +13,7 @@ mod edits;
 mod energy;
 mod errors;
 mod extremes;
+mod in_place;
 mod islands;
 mod matrices;
 mod memory;

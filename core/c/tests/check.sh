@@ -1,36 +1,28 @@
 #!/usr/bin/env bash
-# The C interface: header current, no reachable panic, every bad input, and the same bits from C on this machine, from C
-# on a Cortex-M4F under QEMU, and from the kernel itself. What needs a tool that is not here is skipped and says so.
+# The C interface: header current, no reachable panic, every bad input; from C on this machine and on a Cortex-M4F under
+# QEMU the golden bits of tests/firmware, and in a rope that uses more of the interface the bits of Rust. Installs what is
+# absent; what cannot be had here is skipped and says so, and with CI=true that fails.
 set -euo pipefail
 cd "$(dirname "$0")/.."
-target=${CARGO_TARGET_DIR:-../../target}/c
+source ./tools.sh
+source ./tests/panics.sh
+source ./tests/board.sh
+source ../../tests/firmware/install.sh # compiler_for
+target=$(realpath -m "${CARGO_TARGET_DIR:-../../target}")/c
 work=$(mktemp -d)
 trap 'rm -r "$work"' EXIT
-has() { command -v "$1" >/dev/null; }
+install_packages gcc:gcc gcc:libc6-dev g++:g++ valgrind:valgrind qemu-system-arm:qemu-system-arm \
+    arm-none-eabi-gcc:gcc-arm-none-eabi arm-none-eabi-gcc:libnewlib-arm-none-eabi
 
 cargo fmt -- --check
 ./header.sh --check
 cargo clippy --quiet --profile small --target-dir "$target" -- -D warnings
-
-# Panics: what is left of the panic handler after linking. The sabotaged library must be caught.
-nm=$(command -v llvm-nm-22 || command -v llvm-nm || command -v nm)
-panics() { # profile, feature
-    cargo rustc --quiet --lib --profile "$1" --features "$2" --target-dir "$target/prove"
-    # Old readers complain about members of compiler-builtins that they do not know; the functions are counted below.
-    "$nm" "$target/prove/$1/libhooke_c.a" 2>/dev/null >"$work/symbols" || true
-    functions=$(grep -cE ' T hooke_(f32|f64|message)' "$work/symbols" || true)
-    grep -q hooke_panicked "$work/symbols"
-}
-declared=$(grep -cE '^[a-z].*\bhooke_(f32|f64|message)\w*\(' include/hooke.h)
-for profile in small release; do
-    if panics $profile prove; then echo "c: a panic is reachable at $profile"; exit 1; fi
-    [ "$functions" = "$declared" ] || { echo "c: $functions of $declared functions: this proves nothing"; exit 1; }
-    panics $profile sabotage || { echo "c: the sabotaged function was not caught at $profile"; exit 1; }
-    echo "c: $functions functions, no std, no alloc, no panic at $profile; sabotage caught"
-done
+no_panic small
+no_panic release
 
 # Each C file is written for float; in double it is the same text.
-for file in examples/rope.c tests/errors.c; do
+programs=(rope errors golden)
+for file in examples/rope.c tests/errors.c tests/golden.c; do
     name=$(basename "$file" .c)
     cp "$file" "$work/${name}_f32.c"
     sed 's/f32/@/g; s/f64/f32/g; s/@/f64/g; /#include/!s/\bfloat\b/double/g; s/FLT_/DBL_/g' "$file" \
@@ -38,58 +30,39 @@ for file in examples/rope.c tests/errors.c; do
 done
 flags=(-std=c99 -Wall -Wextra -Werror -pedantic -ffp-contract=off -O2 -Iinclude)
 
-# Unlike the libraries with overflow checks and assertions: the bits do not depend on that either.
+# What they must print: of golden.c the firmware's golden file, of rope.c what Rust computes (with overflow checks and
+# assertions, unlike the libraries: the bits do not depend on that either).
+sed -n '/^job rope f32$/,/^end/p; /^job rope f64$/,/^end/p' ../../tests/firmware/golden.txt >"$work/golden"
+[ "$(grep -c '^end' "$work/golden")" = 2 ] || { echo "c: golden.txt has no job rope: this proves nothing"; exit 1; }
 cargo run --quiet --target-dir "$target" --example rope >"$work/rust"
-same="Rust"
+same_bits() { # output of all programs, where
+    diff "$work/golden" <(sed -n '/^job/,/^end/p' "$1") || { echo "c: $2: not the golden bits (expected: <)"; exit 1; }
+    diff "$work/rust" <(grep digest "$1") || { echo "c: $2: not the bits of Rust (expected: <)"; exit 1; }
+    sed -n "s/^errors/c: $2: errors/p; s/^end/c: $2: golden:/p; s/^digest/c: $2: as in Rust:/p" "$1"
+}
+
 if has gcc; then
     cargo build --quiet --release --lib --target-dir "$target"
-    for name in rope errors; do
+    for name in "${programs[@]}"; do
         for t in f32 f64; do
             gcc "${flags[@]}" "$work/${name}_$t.c" "$target/release/libhooke_c.a" -o "$work/${name}_$t"
-            "$work/${name}_$t" >>"$work/host"
+            "$work/${name}_$t" >>"$work/host" || { tail -5 "$work/host"; echo "c: $name $t fails here"; exit 1; }
             ! has valgrind || valgrind --quiet --error-exitcode=9 --leak-check=full "$work/${name}_$t" >/dev/null
         done
     done
-    ! has g++ || g++ -std=c++11 -Wall -Wextra -Werror -pedantic -fsyntax-only -x c++ include/hooke.h
-    diff "$work/rust" <(grep digest "$work/host") || { echo "c: C and Rust give different bits"; exit 1; }
-    same="$same = C here"
-    grep -h errors: "$work/host"
-    has valgrind && echo "c: valgrind sees no access out of place" || echo "c: skipped: valgrind"
+    same_bits "$work/host" "C here"
+    if has valgrind; then echo "c: valgrind sees no access out of place"; else skipped "the memory check" valgrind; fi
 else
-    echo "c: skipped: programs for this machine need gcc"
+    skipped "C on this machine" gcc
 fi
-
-board=thumbv7em-none-eabihf
-if ! has arm-none-eabi-gcc || ! has qemu-system-arm; then
-    echo "c: skipped: Cortex-M4F needs gcc-arm-none-eabi, libnewlib-arm-none-eabi and qemu-system-arm"
-elif ! rustup target list --installed 2>/dev/null | grep -qx $board &&
-    ! timeout 60 rustup target add $board >/dev/null 2>&1; then
-    echo "c: skipped: Cortex-M4F needs 'rustup target add $board'"
+if has g++; then
+    g++ -std=c++11 -Wall -Wextra -Werror -pedantic -fsyntax-only -x c++ include/hooke.h
 else
-    cargo build --quiet --profile small --lib --target $board --target-dir "$target"
-    arm=(-mcpu=cortex-m4 -mthumb -mfloat-abi=hard -mfpu=fpv4-sp-d16 -ffunction-sections -fdata-sections)
-    for name in rope errors; do
-        for t in f32 f64; do
-            arm-none-eabi-gcc "${flags[@]}" "${arm[@]}" --specs=rdimon.specs -nostartfiles -Wl,--gc-sections \
-                -Wl,-z,noexecstack -Wl,-Map="$work/${name}_$t.map" -T tests/mps2/link.ld tests/mps2/start.c "$work/${name}_$t.c" \
-                "$target/$board/small/libhooke_c.a" -o "$work/${name}_$t.elf"
-            timeout 120 qemu-system-arm -M mps2-an386 -cpu cortex-m4 -nographic -semihosting \
-                -kernel "$work/${name}_$t.elf" >>"$work/arm" ||
-                { tail -5 "$work/arm"; echo "c: $name $t fails on the Cortex-M4F"; exit 1; }
-        done
-    done
-    diff "$work/rust" <(grep digest "$work/arm") || { echo "c: the Cortex-M4F gives different bits"; exit 1; }
-    same="$same = C on the Cortex-M4F"
-    grep -h errors: "$work/arm"
-    if arm-none-eabi-nm "$work"/*.elf | grep -E 'panicking|begin_unwind'; then echo "c: panics in the image"; exit 1; fi
-    for t in f32 f64; do
-        # What the linker took from the library, constants included; soft floats and memcpy are not its own.
-        bytes=0
-        placed='\.(text|rodata)\S* +0x[0-9a-f]+ +0x[0-9a-f]+ \S*libhooke_c\.a\(hooke_c-'
-        for part in $(tr '\n' ' ' <"$work/rope_$t.map" | grep -oE "$placed" | awk '$2 !~ /^0x0+$/ {print $3}'); do
-            bytes=$((bytes + part))
-        done
-        echo "c: rope $t on the Cortex-M4F: $bytes bytes of code and constants from the library"
-    done
+    skipped "the header in C++" g++
 fi
-sed "s/^/c: $same: /" "$work/rust"
+if board_can_run; then
+    run_on_board
+    same_bits "$work/board" "C on a Cortex-M4F"
+    size_on_board rope f32
+    size_on_board rope f64
+fi
