@@ -18,22 +18,22 @@ use crate::error::StepError;
 use crate::force::{Force, Gravity};
 use crate::hessian::Scaling;
 use crate::islands::Islands;
-use crate::jacobi::Jacobi;
 use crate::memory::Memory;
 use crate::network::Network;
 use crate::parts::{IslandParts, Parts};
-use crate::pcg::{self, Stop};
 use crate::pins::Motion;
 use crate::real::Real;
 use crate::report::{IslandReport, Report};
+use crate::solver::{BlockJacobi, Problem, Solver, Stop};
 use crate::system::System;
 use crate::vec3::{self, Vec3};
 
 /// (M + hD − h²K̃)q̇⁺ = Mq̇ + hf, q⁺ = q + hq̇⁺, with the forces `F` besides the springs'.
 #[derive(Debug, Clone, Copy)]
-pub struct LinearlyImplicitEuler<T, F = ()> {
+pub struct LinearlyImplicitEuler<T, F = (), S = BlockJacobi> {
     dt: T,
     stop: Stop<T>,
+    solver: S,
     /// The forces besides the springs' own; change their values between steps here. The last one added is `.1`, the
     /// one before it `.0.1`, and so on.
     pub forces: F,
@@ -43,18 +43,25 @@ impl<T: Real> LinearlyImplicitEuler<T> {
     /// A step of `dt` seconds with the default stopping rule and no forces but the springs'. The values are checked at
     /// each step.
     pub const fn new(dt: T) -> Self {
-        Self { dt, stop: Stop::new(), forces: () }
+        Self { dt, stop: Stop::new(), solver: BlockJacobi, forces: () }
     }
 }
 
-impl<T: Real, F> LinearlyImplicitEuler<T, F> {
+impl<T: Real, F, S> LinearlyImplicitEuler<T, F, S> {
     /// Adds a force.
-    pub fn with<G>(self, force: G) -> LinearlyImplicitEuler<T, (F, G)> {
-        LinearlyImplicitEuler { dt: self.dt, stop: self.stop, forces: (self.forces, force) }
+    pub fn with<G>(self, force: G) -> LinearlyImplicitEuler<T, (F, G), S> {
+        let Self { dt, stop, solver, forces } = self;
+        LinearlyImplicitEuler { dt, stop, solver, forces: (forces, force) }
+    }
+
+    /// Solves by another method; [`BlockJacobi`] unless said.
+    pub fn solver<R: Solver<T>>(self, solver: R) -> LinearlyImplicitEuler<T, F, R> {
+        let Self { dt, stop, forces, .. } = self;
+        LinearlyImplicitEuler { dt, stop, solver, forces }
     }
 
     /// Adds gravity, m/s².
-    pub fn gravity(self, g: Vec3<T>) -> LinearlyImplicitEuler<T, (F, Gravity<T>)> {
+    pub fn gravity(self, g: Vec3<T>) -> LinearlyImplicitEuler<T, (F, Gravity<T>), S> {
         self.with(Gravity(g))
     }
 
@@ -82,7 +89,7 @@ impl<T: Real, F> LinearlyImplicitEuler<T, F> {
     }
 }
 
-impl<T: Real, F: Force<T>> LinearlyImplicitEuler<T, F> {
+impl<T: Real, F: Force<T>, S> LinearlyImplicitEuler<T, F, S> {
     /// Refuses what no step can be made with, writes the pins' velocities over this step behind the unknowns, and asks
     /// the forces.
     fn begin<M: Memory<Real = T>>(
@@ -145,7 +152,7 @@ impl<T: Real, F: Force<T>> LinearlyImplicitEuler<T, F> {
     }
 }
 
-impl<T: Real, F: Force<T>> Integrator<T> for LinearlyImplicitEuler<T, F> {
+impl<T: Real, F: Force<T>, S: Solver<T>> Integrator<T> for LinearlyImplicitEuler<T, F, S> {
     fn advance<M: Memory<Real = T>>(
         &mut self,
         mut parts: Parts<'_, M>,
@@ -162,8 +169,7 @@ impl<T: Real, F: Force<T>> Integrator<T> for LinearlyImplicitEuler<T, F> {
                 assemble::<T, F, M::Law>(&mut island, &mut self.forces, self.dt, scaling)?;
             let IslandParts { matrix, vectors, block, .. } = &mut island;
             let system = System { matrix, forces: &self.forces, points };
-            let jacobi = Jacobi::new(&system, block);
-            let solve = pcg::solve(&system, &jacobi, vectors, &self.stop, free);
+            let solve = self.solver.solve(Problem { system, vectors, block, free }, &self.stop);
             let first_particle = matrix.rows.particle.first().map_or(0, |i| *i as usize);
             if !solve.upper.is_finite() {
                 return Err(StepError::NotFinite(first_particle));

@@ -11,6 +11,8 @@ use crate::bound::square;
 use crate::force::Force;
 use crate::lanes::Lanes;
 use crate::real::{Real, larger};
+use crate::report::Solve;
+use crate::solver::{Problem, Solver, Stop, pcg};
 use crate::sym3::Sym3;
 use crate::system::System;
 use crate::vec3::{self, Vec3};
@@ -82,5 +84,18 @@ impl<T: Real> Preconditioner<T> for Jacobi<'_, T> {
             rz.add(i, vec3::dot(*r, *y));
         }
         (beta.sum(), rz.sum())
+    }
+}
+
+/// PCG with the block-Jacobi preconditioner, in the scene's own memory: the solver that a step has unless it is told
+/// another.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub struct BlockJacobi;
+
+impl<T: Real> Solver<T> for BlockJacobi {
+    #[inline]
+    fn solve<F: Force<T>>(&mut self, problem: Problem<'_, '_, T, F>, stop: &Stop<T>) -> Solve<T> {
+        let Problem { system, vectors, block, free } = problem;
+        pcg::solve(&system, &Jacobi::new(&system, block), vectors, stop, free)
     }
 }

@@ -18,10 +18,10 @@
 
 use crate::bound;
 use crate::force::Force;
-use crate::jacobi::Preconditioner;
 use crate::parts::Vectors;
 use crate::real::{Real, larger};
 use crate::report::{Ending, Solve};
+use crate::solver::Preconditioner;
 use crate::system::System;
 use crate::vec3::{self, Vec3};
 

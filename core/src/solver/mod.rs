@@ -1,0 +1,32 @@
+//! How a step's linear system is solved: one file per method, one trait. A solver is a value that owns the scratch it
+//! needs beyond the scene's own vectors; one that a program does not name costs it nothing.
+
+pub(crate) mod jacobi;
+pub(crate) mod pcg;
+
+pub use jacobi::{BlockJacobi, Jacobi, Preconditioner};
+pub use pcg::Stop;
+
+use crate::force::Force;
+use crate::parts::Vectors;
+use crate::real::Real;
+use crate::report::Solve;
+use crate::system::System;
+
+/// One island's A Δq̇ = b with A's certificate μ, and the scene's vectors to solve it in; opaque: only this crate's
+/// solvers look inside.
+pub struct Problem<'p, 'a, T, F> {
+    pub(crate) system: System<'p, T, F>,
+    /// b and μ come in; x goes out
+    pub(crate) vectors: &'p mut Vectors<'a, T>,
+    /// Room for a block per row
+    pub(crate) block: &'p mut [[T; 6]],
+    /// Nothing holds this island: its momentum is to be kept
+    pub(crate) free: bool,
+}
+
+/// A method for A x = b.
+pub trait Solver<T: Real> {
+    /// Solves one island's system until `stop` says enough, and certifies the answer.
+    fn solve<F: Force<T>>(&mut self, problem: Problem<'_, '_, T, F>, stop: &Stop<T>) -> Solve<T>;
+}
