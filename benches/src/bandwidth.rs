@@ -46,7 +46,7 @@ fn read(bytes: usize) -> f64 {
     let arch = Arch::new();
     let passes = ((1 << 25) / bytes).max(1);
     let mut best = f64::INFINITY;
-    for _ in 0..12 {
+    for _ in 0..30 {
         let began = Instant::now();
         for _ in 0..passes {
             black_box(arch.dispatch(Sum(black_box(&numbers))));

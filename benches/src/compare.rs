@@ -103,6 +103,7 @@ fn compare(args: &Args) -> Result<String, Wrong> {
     let progress = progress();
     progress.set_message("memory bandwidth");
     let levels = bandwidth::levels();
+    memory::forget_peak();
     let (mut rows, mut skipped, mut products) = (Vec::new(), Vec::new(), Vec::new());
     for plan in &plans {
         let job = Compare { args, tolerances, levels: &levels, progress: &progress };

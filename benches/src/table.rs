@@ -23,13 +23,16 @@ pub(crate) fn table(header: &[&str], left: usize, lines: impl Iterator<Item = Ve
 
 /// About three digits.
 pub(crate) fn short(x: f64) -> String {
-    match x.abs() {
-        _ if x.is_nan() => "NaN".into(),
-        size if size >= 100.0 => format!("{x:.0}"),
-        size if size >= 10.0 => format!("{x:.1}"),
-        size if size >= 1.0 => format!("{x:.2}"),
-        _ => format!("{x:.3}"),
-    }
+    let decimals = match x.abs() {
+        _ if x.is_nan() => return "NaN".into(),
+        size if size >= 100.0 => 0,
+        size if size >= 10.0 => 1,
+        size if size >= 1.0 => 2,
+        size if size >= 0.1 => 3,
+        size if size >= 0.01 => 4,
+        _ => 5,
+    };
+    format!("{x:.decimals$}")
 }
 
 fn power(x: f64) -> String {
