@@ -95,7 +95,8 @@ struct Served {
 fn serve(program: &Program, arguments: &[String], pattern: &Pattern) -> Result<Box<dyn Peer>, String> {
     let mut command = Command::new(compiled(program)?);
     command.args(arguments).stdin(Stdio::piped()).stdout(Stdio::piped());
-    command.env("OMP_NUM_THREADS", "1").env("OPENBLAS_NUM_THREADS", "1");
+    // One thread, as everybody else; CHOLMOD asks for four by number, whatever OMP_NUM_THREADS says.
+    command.env("OMP_THREAD_LIMIT", "1").env("OPENBLAS_NUM_THREADS", "1");
     let mut child = command.spawn().map_err(|error| error.to_string())?;
     let (Some(to), Some(from)) = (child.stdin.take(), child.stdout.take()) else {
         return Err("no pipe to the program".into());
