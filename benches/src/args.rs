@@ -112,3 +112,53 @@ impl Args {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn parse(line: &str) -> Result<Args, String> {
+        let arguments = ["compare"].into_iter().chain(line.split(' ').filter(|word| !word.is_empty()));
+        Args::parse_from(arguments.map(String::from)).map_err(|error| match error {
+            Ok(help) => help,
+            Err(error) => error.to_string(),
+        })
+    }
+
+    #[test]
+    fn flags_of_a_mesh_reach_the_scene() {
+        let args = parse("cloth:4 --dt 0.01 -- --mass 2 --stiffness 7 --pin none --velocity 50,0,0").unwrap();
+        let plan = args.plan("cloth:4").unwrap();
+        assert_eq!((plan.dt, plan.model.mass[3], plan.model.springs[2].stiffness), (0.01, 2.0, 7.0));
+        assert!(!plan.model.pinned[0] && plan.model.velocity[0] == [50.0, 0.0, 0.0]);
+    }
+
+    #[test]
+    fn tolerances_are_listed_with_spaces_or_commas() {
+        assert_eq!(parse("cloth:4 --tolerance 1e-3 1e-6").unwrap().tolerance, [1e-3, 1e-6]);
+        assert_eq!(parse("--tolerance 1e-3,1e-6 --states 9").unwrap().tolerance, [1e-3, 1e-6]);
+    }
+
+    #[test]
+    fn bad_input_is_one_line_that_names_it() {
+        for (line, named) in [
+            ("--foo", "'--foo'"),
+            ("--tolerance 0", "--tolerance 0.0"),
+            ("--tolerance NaN", "NaN"),
+            ("--states x", "'x'"),
+            ("cloth:4 -- --steps 3", "'--steps'"),
+            ("cloth:4 -- --stifness 3", "did you mean '--stiffness'?"),
+        ] {
+            let error = parse(line).map(|_| ()).unwrap_err();
+            assert!(error.contains(named) && !error.contains('\n'), "{line}: {error}");
+        }
+        let args = parse("-- --dt 0.01").unwrap();
+        for (scene, named) in
+            [("cloht:4", "did you mean 'cloth:4'?"), ("no.mesh", "no.mesh"), ("cloth:x", "'x'")]
+        {
+            let error = args.plan(scene).unwrap_err().to_string();
+            assert!(error.contains(named) && !error.contains('\n'), "{scene}: {error}");
+        }
+        assert!(parse("-- --mass -1").unwrap().plan("cloth:4").unwrap_err().to_string().contains("--mass"));
+    }
+}
