@@ -40,7 +40,7 @@ pub(crate) struct Args {
 }
 
 const NOTES: &str = "\
-Columns: ms: median over the states (of medians over repeats), and the worst state. A peer pays for the kernel's assembly \
+Columns: ms: median over the states (of medians over repeats), and the worst state; the thread's own time. A peer pays for the kernel's assembly \
 of the step, filling its matrix, numeric factorisation and solve; Hooke for its whole step. bound J: the kernel's certified \
 bound on the energy of the answer's error; error: ‖Δq̇ − exact‖/‖exact‖; MB: everything the method holds.
 ratio: fastest peer that is about as exact / own time, above 1 is faster. A direct peer always counts; Eigen CG, at the \

@@ -4,8 +4,8 @@
 
 use std::fs;
 use std::hint::black_box;
-use std::time::Instant;
 
+use cpu_time::ThreadTime;
 use pulp::{Arch, Simd, WithSimd};
 
 /// A level of the memory.
@@ -47,7 +47,7 @@ fn read(bytes: usize) -> f64 {
     let passes = ((1 << 25) / bytes).max(1);
     let mut best = f64::INFINITY;
     for _ in 0..30 {
-        let began = Instant::now();
+        let began = ThreadTime::now();
         for _ in 0..passes {
             black_box(arch.dispatch(Sum(black_box(&numbers))));
         }

@@ -3,9 +3,9 @@
 //! Both start from the same restored state. A peer is charged the kernel's own assembly of the step (forces, Hessians,
 //! certificate, right side: the same code that Hooke's step runs), the adding of the blocks into its array of values,
 //! its numeric factorisation and its solve; Hooke its whole step. What depends on the pattern only is free for both.
+//! Times are those of the thread, not of the clock on the wall: what others do on the machine is not counted.
 
-use std::time::Instant;
-
+use cpu_time::ThreadTime;
 use hooke::Force;
 
 use crate::memory;
@@ -85,7 +85,7 @@ impl<'a> Contender<'a> {
         match &mut self.kind {
             Kind::Peer { peer, pattern, values, b } => {
                 let mut x = vec![0.0; b.len()];
-                let began = Instant::now();
+                let began = ThreadTime::now();
                 pattern.fill(scenario, values, b);
                 let assembly = began.elapsed();
                 let solved = peer.solve(values, b, &mut x)?;

@@ -1,8 +1,9 @@
 //! Hooke's own solvers, a line each. To add one, give it a name, say how the integrator is told to use it, and how many
 //! bytes a scene needs with it.
 
-use std::time::{Duration, Instant};
+use std::time::Duration;
 
+use cpu_time::ThreadTime;
 use hooke::{Force, Integrator, SceneIn, StepError};
 
 use crate::scenario::{Euler, HostScene};
@@ -55,7 +56,7 @@ struct Timed<I>(I);
 
 impl<I: Integrator<f64>> Step for Timed<I> {
     fn step(&mut self, scene: &mut HostScene) -> Result<Stepped, StepError> {
-        let began = Instant::now();
+        let began = ThreadTime::now();
         let report = scene.step(&mut self.0)?;
         let time = began.elapsed();
         let unfinished = report.capped + report.stalled > 0;

@@ -1,7 +1,6 @@
 //! The product A x against the memory bound: the time that just reading and writing its operands would take.
 
-use std::time::Instant;
-
+use cpu_time::ThreadTime;
 use hooke::{Force, Operator};
 
 use crate::bandwidth::{self, Level};
@@ -37,7 +36,7 @@ pub(crate) fn product<F: Force<f64> + Clone>(scenario: &mut Scenario<F>, levels:
         let mut y = vec![[0.0; 3]; b.len()];
         let passes = (200_000 / b.len()).clamp(3, 2000);
         nanoseconds += median((0..11).map(|_| {
-            let began = Instant::now();
+            let began = ThreadTime::now();
             for _ in 0..passes {
                 std::hint::black_box(system.apply(std::hint::black_box(b), &mut y));
             }
@@ -46,7 +45,7 @@ pub(crate) fn product<F: Force<f64> + Clone>(scenario: &mut Scenario<F>, levels:
     });
     shown.expect("a step that was made before");
     let assembly = median((0..11).map(|_| {
-        let began = Instant::now();
+        let began = ThreadTime::now();
         let shown = scenario.systems(|_, b, _, _| _ = std::hint::black_box(b));
         shown.expect("a step that was made before");
         began.elapsed().as_nanos() as f64

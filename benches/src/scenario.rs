@@ -105,7 +105,8 @@ impl<F: Force<f64> + Clone> Scenario<F> {
         scene.parts();
     }
 
-    /// Δq̇ of the unknowns, row by row: how the present velocities differ from those of state k.
+    /// Δq̇ of the unknowns, row by row: how the present velocities differ from those of state k. (Rounded to u|q̇|, which
+    /// is where the judged bound of a very fine solve ends.)
     pub(crate) fn change(&self, k: usize) -> Vec<f64> {
         let (after, before) = (self.scene.velocities(), &self.states[k].velocity);
         self.particle.iter().flat_map(|&i| [0, 1, 2].map(|c| after[i][c] - before[i][c])).collect()

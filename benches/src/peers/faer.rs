@@ -1,8 +1,7 @@
 //! faer's sparse Cholesky, A = LLᵀ with an AMD ordering; supernodal or not as faer chooses. Symbolic factorisation, factor
 //! and scratch are kept.
 
-use std::time::Instant;
-
+use cpu_time::ThreadTime;
 use faer::dyn_stack::{MemBuffer, MemStack};
 use faer::linalg::cholesky::llt::factor::LltRegularization;
 use faer::prelude::*;
@@ -45,7 +44,7 @@ impl Faer {
 impl Peer for Faer {
     fn solve(&mut self, values: &[f64], b: &[f64], x: &mut [f64]) -> Result<Solved, String> {
         let Self { column, row, symbolic, factor, scratch } = self;
-        let began = Instant::now();
+        let began = ThreadTime::now();
         // The checks of `new_checked` were made on the same arrays before; they cost little beside a factorisation.
         let shape = SymbolicSparseColMatRef::new_checked(b.len(), b.len(), column, None, row);
         let a = SparseColMatRef::new(shape, values);

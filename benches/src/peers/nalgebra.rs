@@ -1,8 +1,7 @@
 //! nalgebra-sparse's Cholesky: left-looking, in the scene's own numbering (it has no reordering). The symbolic part and
 //! the factor are kept, `refactor` each time.
 
-use std::time::Instant;
-
+use cpu_time::ThreadTime;
 use nalgebra_sparse::factorization::{CscCholesky, CscSymbolicCholesky};
 use nalgebra_sparse::na::DVector;
 use nalgebra_sparse::pattern::SparsityPattern;
@@ -36,7 +35,7 @@ impl Peer for Nalgebra {
                 self.cholesky.insert(first.map_err(|error| error.to_string())?)
             }
         };
-        let began = Instant::now();
+        let began = ThreadTime::now();
         cholesky.refactor(values).map_err(|error| error.to_string())?;
         self.x.as_mut_slice().copy_from_slice(b);
         cholesky.solve_mut(&mut self.x);
