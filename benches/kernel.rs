@@ -1,21 +1,21 @@
-//! Time of the kernel's parts: the product A x, the assembly of a step, a whole step.
+//! Time of the kernel's parts: the product A x, the assembly of a step, the preconditioner, a whole step.
 //!
 //! `cargo bench -p hooke-benches`. Times hold for one machine and one hour; compare ratios within one run.
 
 use std::hint::black_box;
+use std::time::{Duration, Instant};
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use hooke::{Operator, Snapshot};
+use hooke::{Jacobi, Operator, Preconditioner};
 use hooke_benches::{HostScene, moving};
-use hooke_harness::heap::Heap;
 
-const SCENES: [&str; 4] = ["cloth:32", "cloth:64", "chain:200", "lattice:8x8x8"];
+const SCENES: [&str; 5] = ["cloth:32", "cloth:64", "chain:1000", "lattice:8x8x8", "curtain"];
 
 fn springs(scene: &HostScene) -> Throughput {
     Throughput::Elements(scene.state().springs() as u64)
 }
 
-/// y = A x on the largest island: time per spring is the figure to watch.
+/// y = A x: time per spring is the figure to watch.
 fn product(c: &mut Criterion) {
     let mut group = c.benchmark_group("product");
     for name in SCENES {
@@ -47,23 +47,63 @@ fn assembly(c: &mut Criterion) {
     }
 }
 
-/// One step from the same state each time.
+/// Block Jacobi: building the inverses (once a step), and applying them (once an iteration).
+fn preconditioner(c: &mut Criterion) {
+    for (what, applies) in [("jacobi_build", false), ("jacobi_apply", true)] {
+        let mut group = c.benchmark_group(what);
+        for name in SCENES {
+            let (mut scene, mut euler) = moving(name);
+            group.throughput(springs(&scene));
+            let parts = scene.parts();
+            euler
+                .inspect(parts, &[], |system, b, _| {
+                    let (mut blocks, mut z) = (vec![[0.0; 6]; b.len()], vec![[0.0; 3]; b.len()]);
+                    group.bench_function(BenchmarkId::from_parameter(name), |bench| {
+                        if applies {
+                            let jacobi = Jacobi::new(system, &mut blocks);
+                            bench.iter(|| black_box(jacobi.apply(black_box(b), &mut z)));
+                        } else {
+                            bench.iter(|| _ = black_box(Jacobi::new(black_box(system), &mut blocks)));
+                        }
+                    });
+                })
+                .expect("a valid step");
+        }
+    }
+}
+
+/// Puts a scene back where it was; its pins and springs, and what is known of them, stay.
+fn put_back(scene: &mut HostScene, [position, velocity]: &[Vec<[f64; 3]>; 2]) {
+    for (i, (position, velocity)) in position.iter().zip(velocity).enumerate() {
+        scene.set_position(i, *position).expect("a particle");
+        if !scene.is_pinned(i) {
+            scene.set_velocity(i, *velocity).expect("a free particle");
+        }
+    }
+}
+
+/// One step from the same state each time; putting it back is not timed.
 fn step(c: &mut Criterion) {
     let mut group = c.benchmark_group("step");
     group.sample_size(20);
     for name in SCENES {
         let (mut scene, mut euler) = moving(name);
-        let mut start = Snapshot::<Heap<f64>>::empty();
-        scene.save(&mut start).expect("room");
+        let start = [scene.positions().to_vec(), scene.velocities().to_vec()];
         group.throughput(springs(&scene));
         group.bench_function(BenchmarkId::from_parameter(name), |bench| {
-            bench.iter(|| {
-                scene.restore(&start).expect("room");
-                black_box(scene.step(&mut euler).expect("a step"))
+            bench.iter_custom(|times| {
+                let mut spent = Duration::ZERO;
+                for _ in 0..times {
+                    put_back(&mut scene, &start);
+                    let began = Instant::now();
+                    black_box(scene.step(&mut euler).expect("a step"));
+                    spent += began.elapsed();
+                }
+                spent
             });
         });
     }
 }
 
-criterion_group!(benches, product, assembly, step);
+criterion_group!(benches, product, assembly, preconditioner, step);
 criterion_main!(benches);

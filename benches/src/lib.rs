@@ -1,24 +1,37 @@
-//! Scenes in motion, for benchmarks: a state at rest is too easy, so each is run for a quarter of a second first.
+//! What Hooke costs, beside what a user would otherwise pick.
+//!
+//! `cargo run --release -p hooke-benches --bin compare -- --help` says how; `cargo bench -p hooke-benches` times the parts
+//! of a step. Times hold for one machine and one hour: only ratios within one run mean anything.
 
-use hooke::{Gravity, LinearlyImplicitEuler, MassSpring};
-use hooke_harness::heap::Heap;
-use hooke_harness::scene::catalog;
+// From the ground up: a scene at several states, ...
+mod moving;
+mod scenario;
+#[cfg(test)]
+mod testing;
 
-/// A scene on the heap.
-pub type HostScene = MassSpring<Heap<f64>>;
-/// The lecture's method with gravity.
-pub type Euler = LinearlyImplicitEuler<f64, ((), Gravity<f64>)>;
+// ... its matrix, whoever solves with it, and what the answers are worth, ...
+mod contender;
+mod judge;
+mod median;
+mod methods;
+mod pattern;
+mod peers;
 
-/// A scene of the catalogue after a quarter of a second, and its integrator.
-///
-/// # Panics
-/// If the name is not one of the catalogue's: a benchmark's own mistake.
-pub fn moving(name: &str) -> (HostScene, Euler) {
-    let model = catalog::named(name).expect("a name of the catalogue").expect("a valid size");
-    let mut scene = model.build::<f64>().expect("a valid scene");
-    let mut euler = LinearlyImplicitEuler::new(model.dt).gravity(model.gravity);
-    for _ in 0..(0.25 / model.dt).round() as usize {
-        scene.step(&mut euler).expect("a step");
-    }
-    (scene, euler)
-}
+// ... what the machine can do, ...
+mod bandwidth;
+mod memory;
+mod operator;
+
+// ... and what is made of it.
+mod args;
+mod compare;
+mod fit;
+mod growth;
+mod growth_plot;
+mod measure;
+mod output;
+mod row;
+mod table;
+
+pub use compare::main as compare;
+pub use moving::{Euler, HostScene, moving};

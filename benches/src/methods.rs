@@ -1,0 +1,66 @@
+//! Hooke's own solvers, a line each. To add one, give it a name, say how the integrator is told to use it, and how many
+//! bytes a scene needs with it.
+
+use std::time::Duration;
+
+use cpu_time::ThreadTime;
+use hooke::{Force, Integrator, SceneIn, StepError};
+
+use crate::scenario::{Euler, HostScene};
+
+/// One timed step.
+pub(crate) struct Stepped {
+    pub(crate) time: Duration,
+    pub(crate) iterations: u32,
+    /// The bounds that the kernel reports, J.
+    pub(crate) upper: f64,
+    pub(crate) lower: f64,
+    /// Some island used up its iterations or stalled above the floor.
+    pub(crate) unfinished: bool,
+}
+
+/// Something that steps a scene and times itself. What it learns of pins and springs it may keep from step to step.
+pub(crate) trait Step {
+    fn step(&mut self, scene: &mut HostScene) -> Result<Stepped, StepError>;
+}
+
+/// One of Hooke's solvers.
+pub(crate) struct Method<F> {
+    pub(crate) name: &'static str,
+    /// From the scene's integrator and a relative tolerance R.
+    pub(crate) make: for<'e> fn(&'e Euler<F>, f64) -> Box<dyn Step + 'e>,
+    /// Bytes of a scene with this solver: its state, islands, matrix and vectors.
+    pub(crate) workspace: fn(&HostScene) -> usize,
+}
+
+/// All of them.
+pub(crate) fn methods<F: Force<f64> + Clone>() -> Vec<Method<F>> {
+    vec![Method {
+        name: "hooke block-Jacobi PCG",
+        make: |euler, r| Box::new(Timed(euler.clone().tolerance(r).max_iterations(MOST_ITERATIONS))),
+        workspace: scene_bytes,
+    }]
+}
+
+/// So many that none of the scenes here is cut short by it.
+const MOST_ITERATIONS: u32 = 100_000;
+
+/// Bytes of a scene's own lists, which hold all that PCG needs.
+fn scene_bytes(scene: &HostScene) -> usize {
+    let (reals, words) = SceneIn::<f64>::needs(scene.positions().len(), scene.state().springs());
+    reals * size_of::<f64>() + words * size_of::<u32>()
+}
+
+/// Any integrator of the kernel.
+struct Timed<I>(I);
+
+impl<I: Integrator<f64>> Step for Timed<I> {
+    fn step(&mut self, scene: &mut HostScene) -> Result<Stepped, StepError> {
+        let began = ThreadTime::now();
+        let report = scene.step(&mut self.0)?;
+        let time = began.elapsed();
+        let unfinished = report.capped + report.stalled > 0;
+        let (iterations, upper, lower) = (report.iterations, report.upper, report.lower);
+        Ok(Stepped { time, iterations, upper, lower, unfinished })
+    }
+}
