@@ -85,9 +85,12 @@ fn compiled(program: &Program) -> Result<PathBuf, String> {
     command.args(FLAGS).arg(&source).arg("-o").arg(&part).args(program.link);
     let output = command.output().map_err(|_| format!("needs a C++ compiler ('{compiler}' does not run)"))?;
     if !output.status.success() {
-        let first = String::from_utf8_lossy(&output.stderr);
-        let first = first.lines().find(|line| line.contains("error")).unwrap_or_default();
-        return Err(format!("{} ({})", program.needs, first.trim()));
+        let said = String::from_utf8_lossy(&output.stderr);
+        let why = said
+            .lines()
+            .find_map(|line| line.split_once("error: "))
+            .map_or("it does not link", |said| said.1);
+        return Err(format!("{} ({})", program.needs, why.trim()));
     }
     fs::rename(&part, &binary).map_err(|error| error.to_string())?;
     Ok(binary)
