@@ -1,3 +1,4 @@
+# shellcheck shell=bash
 # What the check needs, installed where absent. Sourced by check.sh.
 
 # Makes `compile` (arguments of cargo) work for a target: with rustup's library where it can be had, else with Debian's
@@ -36,6 +37,7 @@ qemu-system-riscv32 qemu-system-misc
 qemu-system-riscv64 qemu-system-misc
 node nodejs
 size binutils
+llvm-objdump llvm
 TOOLS
     [ ${#packages[@]} -gt 0 ] || return 0
     command -v apt-get >/dev/null || { echo "firmware: please install ${packages[*]}"; exit 1; }

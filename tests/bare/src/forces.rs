@@ -40,6 +40,6 @@ crate::entry_point::entry_points! {
     Coefficients::coefficient(c: &[T], j: usize) -> T { c.coefficient(j) }
     Coefficients::invalid(c: &[T], springs: usize) -> Option<usize> { c.invalid(springs) }
     Rows::row(rows: &Rows<'_, T>, i: usize) -> Option<usize> { rows.row(i) }
-    Rows::particles(rows: &Rows<'_, T>) -> usize { rows.particles().fold(0, |sum, i| sum + i) }
+    Rows::particles(rows: &Rows<'_, T>) -> usize { rows.particles().sum() }
     Rows::state[of_rows](rows: &Rows<'_, T>) -> usize { rows.state().springs() }
 }

@@ -7,6 +7,7 @@ mod entry_point;
 mod shared;
 
 mod buffers;
+mod control;
 mod editing;
 mod equations;
 mod forces;
