@@ -31,9 +31,13 @@ budgets() {
     shift 2
     for name in "$@"; do seen "$name" | sed "s/^/$name /"; done >"$out/seen"
     [ -s "$out/seen" ] || return 0
+    # shellcheck disable=SC2034 # Set by describe.
+    local triple board flags machine compile=()
+    describe "$1"
+    compiler_for "$triple"
     case $what in
-        check) "$judge" budgets check budgets.txt "$out/seen" "$(rustc --version | cut -d' ' -f2)" ;;
+        check) "$judge" budgets check budgets.txt "$out/seen" "$(compiler_version)" ;;
         lower) "$judge" budgets lower budgets.txt "$out/seen" ;;
-        raise) "$judge" budgets raise budgets.txt "$out/seen" "$(rustc --version | cut -d' ' -f2)" "$why" ;;
+        raise) "$judge" budgets raise budgets.txt "$out/seen" "$(compiler_version)" "$why" ;;
     esac
 }

@@ -24,6 +24,9 @@ compiler_for() {
         CARGO_UNSTABLE_BUILD_STD=core /usr/bin/cargo)
 }
 
+# The version of the compiler that was last chosen.
+compiler_version() { if [ "${compile[0]}" = cargo ]; then rustc --version; else /usr/bin/rustc --version; fi | cut -d' ' -f2; }
+
 # Emulators by Debian's packages, where there is no such command yet; elsewhere install QEMU 7 or newer and node 18 or
 # newer yourself.
 install_tools() {

@@ -24,7 +24,15 @@ build_entries() {
     local library=$CARGO_TARGET_DIR/entries-$1/$triple/s/libhooke_bare.a
     # Old readers complain about members of compiler-builtins that they do not know.
     { llvm-nm "$library" 2>/dev/null || true; } | sed -nE 's/^.* T ((f32|f64|control)::.*)$/-u "\1"/p' >"$dir/entries.names"
-    linker -e 0 --gc-sections "@$dir/entries.names" "$library" -o "$dir/entries"
+    local kind
+    case $triple in
+        thumb*) kind=armelf ;;
+        riscv32*) kind=elf32lriscv ;;
+        riscv64*) kind=elf64lriscv ;;
+        aarch64*) kind=aarch64elf ;;
+        *) echo "firmware: stack.sh does not know how to link for $triple"; exit 1 ;;
+    esac
+    linker -m "$kind" -e 0 --gc-sections "@$dir/entries.names" "$library" -o "$dir/entries"
 }
 
 # Disassembles one of a target's programs.
