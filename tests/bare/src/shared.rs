@@ -7,10 +7,12 @@ use hooke::{
 
 /// A rope of 40 particles with room for a spring of each kind between any neighbours.
 pub type S<T> = Scene<T, 40, 80, Mixed>;
+/// Its owner of memory.
+pub type Owner<T> = Fixed<T, 40, 80, Mixed>;
 /// The same in borrowed buffers.
 pub type Borrowed<'a, T> = SceneIn<'a, T, Mixed>;
 /// A copy of it.
-pub type Kept<T> = Snapshot<Fixed<T, 40, 80, Mixed>>;
+pub type Kept<T> = Snapshot<Owner<T>>;
 /// A vector.
 pub type V<T> = Vec3<T>;
 /// A method with the forces `F`.
