@@ -223,11 +223,8 @@ impl<T: Real> Factors<T> for Band<'_, T> {
             let (Some((_, from)), Some(l)) = (x.split_at_mut_checked(end), three(column)) else { break };
             let Some((first, below)) = from.split_first_mut() else { break };
             let below = below.as_flattened();
-            *first = [
-                first[0] - inner(l[0], below),
-                first[1] - inner(l[1], below),
-                first[2] - inner(l[2], below),
-            ];
+            *first =
+                [first[0] - inner(l[0], below), first[1] - inner(l[1], below), first[2] - inner(l[2], below)];
         }
     }
 }

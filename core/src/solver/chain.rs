@@ -102,11 +102,9 @@ fn eliminate<T: Real>(pivot: &mut [T; 6], g: &mut Towards<T>, before: Sym3<T>, s
 #[inline(never)]
 pub(crate) fn solve<T: Real>(pivots: &[[T; 6]], towards: &[Towards<T>], x: &mut [Vec3<T>]) {
     let (rows, middle) = (x.len(), middle(x.len()));
-    let (Some((up, rest)), Some((up_s, rest_s)), Some((up_g, rest_g))) = (
-        x.split_at_mut_checked(middle),
-        pivots.split_at_checked(middle),
-        towards.split_at_checked(middle),
-    ) else {
+    let (Some((up, rest)), Some((up_s, rest_s)), Some((up_g, rest_g))) =
+        (x.split_at_mut_checked(middle), pivots.split_at_checked(middle), towards.split_at_checked(middle))
+    else {
         return;
     };
     let (Some((last, down)), Some((last_s, down_s))) = (rest.split_first_mut(), rest_s.split_first()) else {
@@ -140,10 +138,7 @@ pub(crate) fn solve<T: Real>(pivots: &[[T; 6]], towards: &[Towards<T>], x: &mut 
 
 /// u ← u + what the neighbour leaves, and x ← S⁻¹u in its place; answers Gᵀu for the next.
 #[inline(always)]
-fn inwards<T: Real>(
-    (x, (pivot, g)): (&mut Vec3<T>, (&[T; 6], &Towards<T>)),
-    before: Vec3<T>,
-) -> Vec3<T> {
+fn inwards<T: Real>((x, (pivot, g)): (&mut Vec3<T>, (&[T; 6], &Towards<T>)), before: Vec3<T>) -> Vec3<T> {
     let u = vec3::add(*x, before);
     *x = Sym3(*pivot).mul(u);
     let [a, b, c, d, e, f, g, h, i] = *g;

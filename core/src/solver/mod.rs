@@ -4,13 +4,18 @@
 mod banded_ldl;
 mod chain;
 mod direct;
+mod elimination;
 pub(crate) mod jacobi;
+mod panel;
 pub(crate) mod pcg;
 mod pivot;
+mod sparse_ldl;
+mod supernodes;
 
 pub use banded_ldl::BandedLdl;
 pub use jacobi::{BlockJacobi, Jacobi, Preconditioner};
 pub use pcg::Stop;
+pub use sparse_ldl::SparseLdl;
 
 use crate::error::StepError;
 use crate::force::Force;

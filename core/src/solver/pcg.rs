@@ -64,7 +64,13 @@ pub(crate) fn solve<T: Real, F: Force<T>>(
         *mu = T::ONE / *mu;
     }
     if v.start() {
-        return Solve { iterations: 0, upper: T::ZERO, lower: T::ZERO, ending: Ending::Untouched, fallback: false };
+        return Solve {
+            iterations: 0,
+            upper: T::ZERO,
+            lower: T::ZERO,
+            ending: Ending::Untouched,
+            fallback: false,
+        };
     }
     let mut from = bound::weighted(v.r, v.mu);
     // No goal is relative to what has overflowed.
