@@ -4,7 +4,7 @@
 use std::time::Duration;
 
 use cpu_time::ThreadTime;
-use hooke::{Force, Integrator, SceneIn, StepError};
+use hooke::{BandedLdl, Force, Integrator, SceneIn, StepError};
 
 use crate::scenario::{Euler, HostScene};
 
@@ -35,11 +35,23 @@ pub(crate) struct Method<F> {
 
 /// All of them.
 pub(crate) fn methods<F: Force<f64> + Clone>() -> Vec<Method<F>> {
-    vec![Method {
-        name: "hooke block-Jacobi PCG",
-        make: |euler, r| Box::new(Timed(euler.clone().tolerance(r).max_iterations(MOST_ITERATIONS))),
-        workspace: scene_bytes,
-    }]
+    vec![
+        Method {
+            name: "hooke block-Jacobi PCG",
+            make: |euler, r| Box::new(Timed(euler.clone().tolerance(r).max_iterations(MOST_ITERATIONS))),
+            workspace: scene_bytes,
+        },
+        Method {
+            name: "hooke banded LDL",
+            make: |euler, r| {
+                growing(move |numbers, _| {
+                    let solver = BandedLdl::new(vec![0.0; numbers]);
+                    Box::new(Timed(euler.clone().tolerance(r).solver(solver)))
+                })
+            },
+            workspace: scene_bytes,
+        },
+    ]
 }
 
 /// So many that none of the scenes here is cut short by it.
@@ -62,5 +74,30 @@ impl<I: Integrator<f64>> Step for Timed<I> {
         let unfinished = report.capped + report.stalled > 0;
         let (iterations, upper, lower) = (report.iterations, report.upper, report.lower);
         Ok(Stepped { time, iterations, upper, lower, unfinished })
+    }
+}
+
+/// A solver with a workspace of so many numbers and words.
+type Make<'e> = Box<dyn Fn(usize, usize) -> Box<dyn Step + 'e> + 'e>;
+
+/// A direct solver that is made anew, untimed, whenever a step says how much workspace it lacks.
+struct Growing<'e> {
+    make: Make<'e>,
+    solver: Box<dyn Step + 'e>,
+}
+
+fn growing<'e>(make: impl Fn(usize, usize) -> Box<dyn Step + 'e> + 'e) -> Box<dyn Step + 'e> {
+    let solver = make(0, 0);
+    Box::new(Growing { make: Box::new(make), solver })
+}
+
+impl Step for Growing<'_> {
+    fn step(&mut self, scene: &mut HostScene) -> Result<Stepped, StepError> {
+        loop {
+            match self.solver.step(scene) {
+                Err(StepError::Workspace { numbers, words }) => self.solver = (self.make)(numbers, words),
+                other => return other,
+            }
+        }
     }
 }

@@ -61,6 +61,14 @@ pub enum StepError {
     /// The step would give this particle, or one of the island that begins with it, an infinite or NaN position or
     /// velocity, or no finite error bound.
     NotFinite(usize),
+    /// A direct solver's workspace is too small: it needs so many numbers and words, or more where other islands are
+    /// larger still.
+    Workspace {
+        /// How many numbers.
+        numbers: usize,
+        /// How many words.
+        words: usize,
+    },
 }
 
 impl fmt::Display for EditError {
@@ -101,6 +109,9 @@ impl fmt::Display for StepError {
             }
             Self::NotFinite(i) => {
                 write!(f, "particle {i}, or its island, would leave the range of the numbers")
+            }
+            Self::Workspace { numbers, words } => {
+                write!(f, "the solver's workspace is too small: give it {numbers} numbers and {words} words")
             }
         }
     }

@@ -20,7 +20,7 @@ pub enum Ending {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Solve<T> {
-    /// PCG iterations.
+    /// PCG iterations, or solves with a direct solver's factors.
     pub iterations: u32,
     /// ½‖e‖²_A is at most this, J.
     pub upper: T,
@@ -28,6 +28,8 @@ pub struct Solve<T> {
     pub lower: T,
     /// How it ended.
     pub ending: Ending,
+    /// Did a direct solver break down, so that block-Jacobi PCG had to answer?
+    pub fallback: bool,
 }
 
 /// One island of a step.
@@ -50,7 +52,7 @@ pub struct IslandReport<T> {
 #[derive(Debug, Clone, Copy, PartialEq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub struct Report<T> {
-    /// PCG iterations of all islands together.
+    /// Iterations of all islands together.
     pub iterations: u32,
     /// The error's energy ½‖e‖²_A is at most this, J.
     pub upper: T,
@@ -70,6 +72,8 @@ pub struct Report<T> {
     pub capped: u32,
     /// Islands that stalled above the floor.
     pub stalled: u32,
+    /// Islands where a direct solver broke down and block-Jacobi PCG answered.
+    pub fallbacks: u32,
     /// Springs that no island needed: broken, or with both ends pinned.
     pub springs_skipped: u32,
 }
@@ -87,6 +91,7 @@ impl<T: crate::Real> Report<T> {
             at_floor: 0,
             capped: 0,
             stalled: 0,
+            fallbacks: 0,
             springs_skipped: springs_skipped as u32,
         }
     }
@@ -105,6 +110,7 @@ impl<T: crate::Real> Report<T> {
         self.at_floor += ended(Ending::Floor);
         self.capped += ended(Ending::Capped);
         self.stalled += ended(Ending::Stalled);
+        self.fallbacks += u32::from(island.solve.fallback);
     }
 
     /// Did no island need a projection pass?

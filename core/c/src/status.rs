@@ -108,6 +108,7 @@ impl From<StepError> for Failure {
             StepError::NotPinned(i) => (HOOKE_NOT_PINNED, i),
             StepError::Motion(i) => (HOOKE_MOTION, i),
             StepError::NotFinite(i) => (HOOKE_NOT_FINITE, i),
+            StepError::Workspace { .. } => (HOOKE_TOO_SMALL, NO_INDEX),
         };
         Self { status, index }
     }

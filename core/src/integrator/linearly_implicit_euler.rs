@@ -169,7 +169,7 @@ impl<T: Real, F: Force<T>, S: Solver<T>> Integrator<T> for LinearlyImplicitEuler
                 assemble::<T, F, M::Law>(&mut island, &mut self.forces, self.dt, scaling)?;
             let IslandParts { matrix, vectors, block, .. } = &mut island;
             let system = System { matrix, forces: &self.forces, points };
-            let solve = self.solver.solve(Problem { system, vectors, block, free }, &self.stop);
+            let solve = self.solver.solve(Problem { system, vectors, block, free }, &self.stop)?;
             let first_particle = matrix.rows.particle.first().map_or(0, |i| *i as usize);
             if !solve.upper.is_finite() {
                 return Err(StepError::NotFinite(first_particle));

@@ -8,6 +8,7 @@
 //! Memory: 6 numbers per particle.
 
 use crate::bound::square;
+use crate::error::StepError;
 use crate::force::Force;
 use crate::lanes::Lanes;
 use crate::real::{Real, larger};
@@ -94,8 +95,12 @@ pub struct BlockJacobi;
 
 impl<T: Real> Solver<T> for BlockJacobi {
     #[inline]
-    fn solve<F: Force<T>>(&mut self, problem: Problem<'_, '_, T, F>, stop: &Stop<T>) -> Solve<T> {
+    fn solve<F: Force<T>>(
+        &mut self,
+        problem: Problem<'_, '_, T, F>,
+        stop: &Stop<T>,
+    ) -> Result<Solve<T>, StepError> {
         let Problem { system, vectors, block, free } = problem;
-        pcg::solve(&system, &Jacobi::new(&system, block), vectors, stop, free)
+        Ok(pcg::solve(&system, &Jacobi::new(&system, block), vectors, stop, free))
     }
 }

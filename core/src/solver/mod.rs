@@ -1,12 +1,23 @@
 //! How a step's linear system is solved: one file per method, one trait. A solver is a value that owns the scratch it
 //! needs beyond the scene's own vectors; one that a program does not name costs it nothing.
 
+mod banded_ldl;
+mod chain;
+mod direct;
+mod elimination;
 pub(crate) mod jacobi;
+mod panel;
 pub(crate) mod pcg;
+mod pivot;
+mod sparse_ldl;
+mod supernodes;
 
+pub use banded_ldl::BandedLdl;
 pub use jacobi::{BlockJacobi, Jacobi, Preconditioner};
 pub use pcg::Stop;
+pub use sparse_ldl::SparseLdl;
 
+use crate::error::StepError;
 use crate::force::Force;
 use crate::parts::Vectors;
 use crate::real::Real;
@@ -28,5 +39,12 @@ pub struct Problem<'p, 'a, T, F> {
 /// A method for A x = b.
 pub trait Solver<T: Real> {
     /// Solves one island's system until `stop` says enough, and certifies the answer.
-    fn solve<F: Force<T>>(&mut self, problem: Problem<'_, '_, T, F>, stop: &Stop<T>) -> Solve<T>;
+    ///
+    /// # Errors
+    /// [`StepError::Workspace`] if the solver's scratch is too small.
+    fn solve<F: Force<T>>(
+        &mut self,
+        problem: Problem<'_, '_, T, F>,
+        stop: &Stop<T>,
+    ) -> Result<Solve<T>, StepError>;
 }

@@ -64,7 +64,13 @@ pub(crate) fn solve<T: Real, F: Force<T>>(
         *mu = T::ONE / *mu;
     }
     if v.start() {
-        return Solve { iterations: 0, upper: T::ZERO, lower: T::ZERO, ending: Ending::Untouched };
+        return Solve {
+            iterations: 0,
+            upper: T::ZERO,
+            lower: T::ZERO,
+            ending: Ending::Untouched,
+            fallback: false,
+        };
     }
     let mut from = bound::weighted(v.r, v.mu);
     // No goal is relative to what has overflowed.
@@ -102,13 +108,13 @@ pub(crate) fn solve<T: Real, F: Force<T>>(
     let upper = bound::upper(v.r, v.p, v.mu);
     preconditioner.apply(v.r, v.y);
     let lower = bound::lower(system, v.r, v.y, v.b, v.p);
-    Solve { iterations, upper, lower, ending: ending.unwrap_or(Ending::Stalled) }
+    Solve { iterations, upper, lower, ending: ending.unwrap_or(Ending::Stalled), fallback: false }
 }
 
 impl<T: Real> Vectors<'_, T> {
     /// x = 0 and so r = b, exactly: δ = 0. Answers whether there is nothing to solve.
     #[inline(never)]
-    fn start(&mut self) -> bool {
+    pub(crate) fn start(&mut self) -> bool {
         let mut nothing = true;
         for (((x, r), p), b) in
             self.x.iter_mut().zip(self.r.iter_mut()).zip(self.p.iter_mut()).zip(self.b.iter())
@@ -123,7 +129,7 @@ impl<T: Real> Vectors<'_, T> {
 
     /// r = b − A x computed anew, δ into p; on a `free` island the momentum equations are repaired first. Answers β.
     #[inline(never)]
-    fn check<F: Force<T>>(&mut self, system: &System<'_, T, F>, free: bool) -> T {
+    pub(crate) fn check<F: Force<T>>(&mut self, system: &System<'_, T, F>, free: bool) -> T {
         if free {
             keep_momentum(system.matrix.inertia, self.b, self.x);
         }

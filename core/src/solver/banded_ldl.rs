@@ -1,0 +1,272 @@
+//! Block-banded LDLᵀ: a direct solver for chains, ropes and thin nets.
+//!
+//! Rows in the island's own order; w, the half bandwidth, is the farthest row that a spring reaches (found anew from the
+//! matrix each time, so a broken spring or a released pin needs no word). w = 1 goes the way of [`super::chain`]; else
+//! column after column, with 3×3 pivots Sₖ and no pivoting (A is positive definite):
+//!
+//! Lᵢₖ = Aᵢₖ Sₖ⁻¹,  Aᵢⱼ ← Aᵢⱼ − Lᵢₖ Aⱼₖᵀ for k < j ≤ i ≤ k + w.
+//!
+//! A block column is three columns of 3w numbers each, so that an update is a sum of three multiples of contiguous columns.
+//! Cost: 27 w² flops per row to factor, 36 w to solve. Memory: 9w numbers per row and 9w more; pivots lie in the scene's own.
+//! Exact up to rounding, which the certificate measures; see [`super::direct`] for refinement and what happens when a
+//! pivot fails.
+//!
+//! Source: Golub & Van Loan, *Matrix Computations*, §4.3 (banded LDLᵀ).
+
+use crate::error::StepError;
+use crate::force::Force;
+use crate::memory::{Memory, part};
+use crate::parts::Matrix;
+use crate::real::Real;
+use crate::report::Solve;
+use crate::scene::MassSpring;
+use crate::solver::chain;
+use crate::solver::direct::{self, Factors};
+use crate::solver::pivot::inverse;
+use crate::solver::{Problem, Solver, Stop};
+use crate::sym3::Sym3;
+use crate::system::System;
+use crate::vec3::{self, Vec3};
+
+/// Block-banded LDLᵀ in a workspace of the caller's: an array, a borrowed slice, a vector.
+///
+/// ```
+/// use hooke::{BandedLdl, LinearlyImplicitEuler, Scene};
+/// const ROOM: usize = BandedLdl::needs(40, 1); // A rope: each particle is tied to the next.
+/// let mut rope = Box::new(Scene::<f32, 40, 39>::new());
+/// for i in 0..40 {
+///     rope.particle([0.1 * i as f32, 0.0, 0.0], 0.010)?;
+/// }
+/// for i in 1..40 {
+///     rope.spring(i - 1, i, 1_000.0)?;
+/// }
+/// rope.pin(0)?;
+/// let mut euler = LinearlyImplicitEuler::new(1.0 / 60.0)
+///     .gravity([0.0, -9.81, 0.0])
+///     .solver(BandedLdl::new([0.0; ROOM]));
+/// let report = rope.step(&mut euler)?;
+/// assert_eq!(report.iterations, 1);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone, Copy)]
+pub struct BandedLdl<B> {
+    workspace: B,
+}
+
+impl BandedLdl<()> {
+    /// How many numbers an island of so many free particles needs, none tied to one more than `half_bandwidth` rows
+    /// away. Islands share the workspace: the largest need counts.
+    pub const fn needs(particles: usize, half_bandwidth: usize) -> usize {
+        particles.saturating_add(1).saturating_mul(half_bandwidth).saturating_mul(9)
+    }
+
+    /// How many numbers a scene needs as its pins and springs are now.
+    pub fn needs_of<M: Memory>(scene: &mut MassSpring<M>) -> usize {
+        let parts = scene.parts();
+        let mut most = 0;
+        for words in parts.islands.islands() {
+            let island = crate::islands::Island::unpack(*words);
+            let own = part(&parts.islands.own, island.slots());
+            let other = part(&parts.islands.other, island.springs());
+            let needs = Self::needs(island.particles, half_bandwidth(own, other));
+            most = if needs > most { needs } else { most };
+        }
+        most
+    }
+}
+
+impl<B> BandedLdl<B> {
+    /// A solver in this workspace; [`BandedLdl::needs`] says how large it is to be. If it is too small, a step fails with
+    /// [`StepError::Workspace`], which says so too.
+    pub const fn new(workspace: B) -> Self {
+        Self { workspace }
+    }
+}
+
+/// The farthest that a spring reaches.
+fn half_bandwidth(own: &[u32], other: &[u32]) -> usize {
+    let (rows, mut others, mut most) = (own.len(), other.iter(), 0);
+    for (row, own) in own.iter().enumerate() {
+        for other in others.by_ref().take(*own as usize) {
+            let (other, reach) = (*other as usize, (*other as usize).saturating_sub(row));
+            most = if other < rows && reach > most { reach } else { most };
+        }
+    }
+    most
+}
+
+impl<T: Real, B: AsMut<[T]>> Solver<T> for BandedLdl<B> {
+    fn solve<F: Force<T>>(
+        &mut self,
+        problem: Problem<'_, '_, T, F>,
+        stop: &Stop<T>,
+    ) -> Result<Solve<T>, StepError> {
+        let Matrix { own, other, .. } = problem.system.matrix;
+        let width = half_bandwidth(own, other);
+        let numbers = BandedLdl::needs(own.len(), width);
+        let Some(workspace) = self.workspace.as_mut().get_mut(..numbers) else {
+            return Err(StepError::Workspace { numbers, words: 0 });
+        };
+        Ok(if width <= 1 {
+            direct::solve(problem, stop, &mut Chain { towards: workspace.as_chunks_mut().0 })
+        } else {
+            let (copy, columns) = workspace.split_at_mut(9 * width);
+            direct::solve(problem, stop, &mut Band { width, copy, columns })
+        })
+    }
+}
+
+/// w ≤ 1
+struct Chain<'a, T> {
+    towards: &'a mut [chain::Towards<T>],
+}
+
+impl<T: Real> Factors<T> for Chain<'_, T> {
+    fn factor<F: Force<T>>(&mut self, system: &System<'_, T, F>, pivots: &mut [[T; 6]]) -> bool {
+        chain::factor(system, pivots, self.towards)
+    }
+    fn solve(&mut self, pivots: &[[T; 6]], x: &mut [Vec3<T>]) {
+        chain::solve(pivots, self.towards, x);
+    }
+}
+
+/// w > 1
+struct Band<'a, T> {
+    width: usize,
+    /// One block column before it was scaled
+    copy: &'a mut [T],
+    /// The block columns below the diagonal, 9w numbers each
+    columns: &'a mut [T],
+}
+
+/// The three columns of a block column.
+#[inline(always)]
+fn three<T>(column: &[T]) -> Option<[&[T]; 3]> {
+    let third = column.len() / 3;
+    let (a, rest) = column.split_at_checked(third)?;
+    let (b, c) = rest.split_at_checked(third)?;
+    Some([a, b, c])
+}
+
+/// As [`three`], mutable.
+#[inline(always)]
+fn three_mut<T>(column: &mut [T]) -> Option<[&mut [T]; 3]> {
+    let third = column.len() / 3;
+    let (a, rest) = column.split_at_mut_checked(third)?;
+    let (b, c) = rest.split_at_mut_checked(third)?;
+    Some([a, b, c])
+}
+
+/// y −= a s₀ + b s₁ + c s₂
+#[inline(always)]
+fn subtract<T: Real>(y: &mut [T], [a, b, c]: [&[T]; 3], s: Vec3<T>) {
+    for (((y, a), b), c) in y.iter_mut().zip(a).zip(b).zip(c) {
+        *y -= (*a * s[0] + *b * s[1]) + *c * s[2];
+    }
+}
+
+impl<T: Real> Band<'_, T> {
+    /// A below its diagonal, by columns.
+    fn assemble<F: Force<T>>(&mut self, system: &System<'_, T, F>) {
+        let (width, rows) = (self.width, system.particles());
+        for number in self.columns.iter_mut() {
+            *number = T::ZERO;
+        }
+        system.each_spring(|row, other, h| {
+            let column = self.columns.chunks_exact_mut(9 * width).nth(row).and_then(three_mut);
+            let (Some(column), true) = (column, other < rows) else { return };
+            let from = 3 * (other.saturating_sub(row).saturating_sub(1));
+            for (column, block) in column.into_iter().zip(h.dense()) {
+                for (a, h) in column.iter_mut().skip(from).zip(block) {
+                    *a -= h;
+                }
+            }
+        });
+    }
+}
+
+impl<T: Real> Factors<T> for Band<'_, T> {
+    #[inline(never)]
+    fn factor<F: Force<T>>(&mut self, system: &System<'_, T, F>, pivots: &mut [[T; 6]]) -> bool {
+        system.diagonal(pivots);
+        self.assemble(system);
+        let length = 9 * self.width;
+        let (mut pivots, mut columns): (&mut [[T; 6]], &mut [T]) = (pivots, self.columns);
+        loop {
+            let Some((pivot, later)) = pivots.split_first_mut() else { return true };
+            let Some((column, rest)) = columns.split_at_mut_checked(length) else { return true };
+            let Some(inverted) = inverse(Sym3(*pivot)) else { return false };
+            *pivot = inverted.0;
+            scale(column, self.copy, &inverted);
+            let (Some(l), Some(a)) = (three(column), three(self.copy)) else { return false };
+            let targets = later.iter_mut().zip(rest.chunks_exact_mut(length));
+            for (t, (pivot, target)) in targets.enumerate().take(self.width) {
+                update(t, pivot, target, l, a);
+            }
+            (pivots, columns) = (later, rest);
+        }
+    }
+
+    #[inline(never)]
+    fn solve(&mut self, pivots: &[[T; 6]], x: &mut [Vec3<T>]) {
+        let length = 9 * self.width;
+        let mut rest = &mut *x;
+        for (column, pivot) in self.columns.chunks_exact(length).zip(pivots) {
+            let (Some((first, below)), Some(l)) = (rest.split_first_mut(), three(column)) else { break };
+            subtract(below.as_flattened_mut(), l, *first);
+            *first = Sym3(*pivot).mul(*first);
+            rest = below;
+        }
+        let mut end = x.len();
+        for column in self.columns.chunks_exact(length).rev() {
+            end = end.saturating_sub(1);
+            let (Some((_, from)), Some(l)) = (x.split_at_mut_checked(end), three(column)) else { break };
+            let Some((first, below)) = from.split_first_mut() else { break };
+            let below = below.as_flattened();
+            *first =
+                [first[0] - inner(l[0], below), first[1] - inner(l[1], below), first[2] - inner(l[2], below)];
+        }
+    }
+}
+
+/// L = A S⁻¹ of one block column in place; A goes to `copy`.
+fn scale<T: Real>(column: &mut [T], copy: &mut [T], inverted: &Sym3<T>) {
+    if let (Some([a, b, c]), Some([x, y, z])) = (three_mut(column), three_mut(copy)) {
+        let (old, new) = (x.iter_mut().zip(y).zip(z), a.iter_mut().zip(b).zip(c));
+        for (((x, y), z), ((a, b), c)) in old.zip(new) {
+            (*x, *y, *z) = (*a, *b, *c);
+            [*a, *b, *c] = inverted.mul([*a, *b, *c]);
+        }
+    }
+}
+
+/// What an eliminated column, L and A below its pivot, does to the column that belongs to its block t.
+#[inline(always)]
+fn update<T: Real>(t: usize, pivot: &mut [T; 6], target: &mut [T], l: [&[T]; 3], a: [&[T]; 3]) {
+    let row = |of: [&[T]; 3], c: usize| of.map(|column| column.get(3 * t + c).copied().unwrap_or(T::ZERO));
+    let (ax, ay, az) = (row(a, 0), row(a, 1), row(a, 2));
+    let (lx, ly, lz) = (row(l, 0), row(l, 1), row(l, 2));
+    let [xx, yy, zz, xy, xz, yz] = *pivot;
+    *pivot = [
+        xx - vec3::dot(lx, ax),
+        yy - vec3::dot(ly, ay),
+        zz - vec3::dot(lz, az),
+        xy - vec3::dot(ly, ax),
+        xz - vec3::dot(lz, ax),
+        yz - vec3::dot(lz, ay),
+    ];
+    let below = l.map(|column| column.get(3 * t + 3..).unwrap_or_default());
+    for (column, s) in three_mut(target).into_iter().flatten().zip([ax, ay, az]) {
+        subtract(column, below, s);
+    }
+}
+
+/// lᵀx, with one sum for each component of a row.
+#[inline(always)]
+fn inner<T: Real>(l: &[T], x: &[T]) -> T {
+    let mut sum = [T::ZERO; 3];
+    for (l, x) in l.as_chunks::<3>().0.iter().zip(x.as_chunks::<3>().0) {
+        sum = [sum[0] + l[0] * x[0], sum[1] + l[1] * x[1], sum[2] + l[2] * x[2]];
+    }
+    (sum[0] + sum[1]) + sum[2]
+}

@@ -1,0 +1,167 @@
+//! Block-sparse LDLᵀ: a direct solver for nets and bodies of any shape, in an elimination order that the caller gives.
+//!
+//! A = L S Lᵀ with 3×3 pivots S and no pivoting. What depends on the springs' pattern only ([`super::elimination`]) is kept
+//! from step to step, island after island, and found anew when a fingerprint of the pattern has changed; should two patterns
+//! share one, the certificate notices and PCG answers. The numbers ([`super::supernodes`]) are new in every step.
+//!
+//! Cost: 27 c² flops per row with c entries below its pivot; all depends on the order. Exact up to rounding, which the
+//! certificate measures; see [`super::direct`] for refinement and what happens when a pivot fails.
+
+use crate::error::StepError;
+use crate::force::Force;
+use crate::real::Real;
+use crate::report::Solve;
+use crate::solver::direct::{self, Factors};
+use crate::solver::elimination::{FIXED, Sizes, analyse, fingerprint, lists};
+use crate::solver::supernodes::Supernodes;
+use crate::solver::{Problem, Solver, Stop};
+use crate::system::System;
+use crate::vec3::Vec3;
+
+/// Block-sparse LDLᵀ. Numbers, words and the order are the caller's: arrays, borrowed slices, vectors.
+///
+/// The order lists particles, first to be eliminated first, best one that keeps the factor sparse (approximate minimum
+/// degree, nested dissection). Every order is right: particles that it does not name come last, and what it names twice or
+/// in vain is skipped.
+///
+/// How much memory is needed depends on the order; a step with too little fails with [`StepError::Workspace`], which says
+/// how much, and never less than there is: of words, first so many as it takes to find out, then all.
+///
+/// ```
+/// use hooke::{LinearlyImplicitEuler, Scene, SparseLdl, StepError};
+/// let mut net = Box::new(Scene::<f64, 9, 12>::new());
+/// for i in 0..9 {
+///     net.particle([0.1 * (i % 3) as f64, 0.0, 0.1 * (i / 3) as f64], 0.010)?;
+/// }
+/// for i in 0..9 {
+///     if i % 3 != 2 {
+///         net.spring(i, i + 1, 1_000.0)?;
+///     }
+///     if i < 6 {
+///         net.spring(i, i + 3, 1_000.0)?;
+///     }
+/// }
+/// net.pin(0)?;
+/// let order = [8, 2, 6, 1, 3, 5, 7, 4];
+/// let (mut numbers, mut words) = (vec![], vec![]);
+/// let report = loop {
+///     let solver = SparseLdl::new(&order, &mut numbers, &mut words);
+///     match net.step(&mut LinearlyImplicitEuler::new(0.01).gravity([0.0, -9.81, 0.0]).solver(solver)) {
+///         Err(StepError::Workspace { numbers: n, words: w }) => {
+///             numbers.resize(n, 0.0);
+///             words.resize(w, 0);
+///         }
+///         other => break other?,
+///     }
+/// };
+/// assert_eq!(report.iterations, 1);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone, Copy)]
+pub struct SparseLdl<O, N, W> {
+    order: O,
+    numbers: N,
+    words: W,
+    /// How many words the records of the present patterns fill
+    known: usize,
+    /// Where the next island's record is or is to be
+    cursor: usize,
+}
+
+impl<O, N, W> SparseLdl<O, N, W> {
+    /// A solver that eliminates in this order, in this workspace.
+    pub const fn new(order: O, numbers: N, words: W) -> Self {
+        Self { order, numbers, words, known: 0, cursor: 0 }
+    }
+}
+
+/// A record's header: whose it is, and its sizes.
+fn header(first: usize, fingerprint: u32, sizes: &Sizes) -> [u32; FIXED] {
+    let Sizes { rows, edges, supers, listed, panels, longest } = *sizes;
+    let [first, rows, edges, supers, listed, panels, longest] =
+        [first, rows, edges, supers, listed, panels, longest].map(|n| n as u32);
+    [first, fingerprint, rows, edges, supers, listed, panels, longest]
+}
+
+/// The sizes in a header.
+fn sizes(header: [u32; FIXED]) -> Sizes {
+    let [_, _, rows, edges, supers, listed, panels, longest] = header.map(|word| word as usize);
+    Sizes { rows, edges, supers, listed, panels, longest }
+}
+
+impl<O: AsRef<[u32]>, N, W: AsMut<[u32]>> SparseLdl<O, N, W> {
+    /// The sizes of an island's factor, analysed if its record is not the next one.
+    fn prepare<T: Real, F: Force<T>>(&mut self, system: &System<'_, T, F>) -> Result<Sizes, StepError>
+    where
+        N: AsMut<[T]>,
+    {
+        let numbers = self.numbers.as_mut().len();
+        let matrix = system.matrix;
+        if matrix.rows.first == 0 {
+            self.cursor = 0;
+        }
+        let (first, print) = (matrix.rows.first, fingerprint(matrix));
+        let words = self.words.as_mut();
+        let kept = words.get(self.cursor..self.known).and_then(|record| record.first_chunk::<FIXED>());
+        if let Some(kept) = kept {
+            let sizes = sizes(*kept);
+            let same = (sizes.rows, sizes.edges) == (matrix.own.len(), matrix.other.len());
+            if same && *kept == header(first, print, &sizes) {
+                return Ok(sizes);
+            }
+        }
+        let lacks = |words: usize| StepError::Workspace { numbers, words: self.cursor + FIXED + words };
+        let Some((head, rest)) =
+            words.get_mut(self.cursor..).and_then(|record| record.split_first_chunk_mut::<FIXED>())
+        else {
+            return Err(lacks(9 * matrix.own.len() + 4 * matrix.other.len() + 2));
+        };
+        // What follows belongs to the old pattern.
+        self.known = self.cursor;
+        let sizes = analyse(matrix, self.order.as_ref(), rest).map_err(lacks)?;
+        *head = header(first, print, &sizes);
+        self.known = self.cursor + sizes.words();
+        Ok(sizes)
+    }
+}
+
+impl<T, O, N, W> Solver<T> for SparseLdl<O, N, W>
+where
+    T: Real,
+    O: AsRef<[u32]>,
+    N: AsMut<[T]>,
+    W: AsMut<[u32]>,
+{
+    fn solve<F: Force<T>>(
+        &mut self,
+        problem: Problem<'_, '_, T, F>,
+        stop: &Stop<T>,
+    ) -> Result<Solve<T>, StepError> {
+        let sizes = self.prepare(&problem.system)?;
+        let (begin, end) = (self.cursor + FIXED, self.cursor + sizes.words());
+        let known = self.known;
+        let larger = |a: usize, b: usize| if a < b { b } else { a };
+        let lacks = StepError::Workspace {
+            numbers: larger(sizes.numbers(), self.numbers.as_mut().len()),
+            words: larger(known + sizes.scratch(), self.words.as_mut().len()),
+        };
+        let Some((records, scratch)) = self.words.as_mut().split_at_mut_checked(known) else {
+            return Err(lacks);
+        };
+        let lists = records.get(begin..end).and_then(|record| lists(&sizes, record));
+        let supernodes =
+            lists.and_then(|lists| Supernodes::new(&sizes, lists, self.numbers.as_mut(), scratch));
+        let Some(mut supernodes) = supernodes else { return Err(lacks) };
+        self.cursor = end;
+        Ok(direct::solve(problem, stop, &mut supernodes))
+    }
+}
+
+impl<T: Real> Factors<T> for Supernodes<'_, T> {
+    fn factor<F: Force<T>>(&mut self, system: &System<'_, T, F>, pivots: &mut [[T; 6]]) -> bool {
+        Supernodes::factor(self, system, pivots)
+    }
+    fn solve(&mut self, pivots: &[[T; 6]], x: &mut [Vec3<T>]) {
+        Supernodes::solve(self, pivots, x);
+    }
+}

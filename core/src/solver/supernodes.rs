@@ -1,0 +1,290 @@
+//! The numbers of a sparse LDLᵀ: left-looking, supernode by supernode, each a dense panel.
+//!
+//! Panel s ← A's columns of s; −= W_d L_dᵀ for every earlier supernode d with a row in s (L_d = W_d S_d⁻¹: only the few rows
+//! of L_d that meet s are formed); then its own columns eliminate each other. Who has a row in s next is kept in linked lists,
+//! and an update is summed densely before it is scattered.
+//!
+//! Source: Ng & Peyton 1993 (left-looking block Cholesky).
+
+use crate::force::Force;
+use crate::real::Real;
+use crate::solver::elimination::{Lists, NONE, Sizes, get, set};
+use crate::solver::panel::{below, below_mut, divided, first, subtract, three, three_mut};
+use crate::solver::pivot::inverse;
+use crate::sym3::Sym3;
+use crate::system::System;
+use crate::vec3::{self, Vec3};
+
+/// An island's factor and what it is made in.
+pub(crate) struct Supernodes<'a, T> {
+    pub(crate) lists: Lists<&'a [u32]>,
+    pub(crate) panels: &'a mut [T],
+    /// A block column of the longest panel
+    pub(crate) update: &'a mut [T],
+    /// A vector in elimination order
+    pub(crate) vector: &'a mut [Vec3<T>],
+    /// Per supernode: the first in the list of those that update it, the next in the list that it is in itself, and its
+    /// own first row that has not been used yet
+    pub(crate) head: &'a mut [u32],
+    pub(crate) next: &'a mut [u32],
+    pub(crate) used: &'a mut [u32],
+    /// Position → row of the present panel
+    pub(crate) local: &'a mut [u32],
+}
+
+/// One supernode of the lists.
+#[derive(Clone, Copy)]
+struct Node<'a> {
+    /// Its first position, and the first that is no longer its own
+    first: usize,
+    end: usize,
+    /// The positions of its rows
+    rows: &'a [u32],
+    /// Where its panel is
+    from: usize,
+    to: usize,
+}
+
+impl<'a> Node<'a> {
+    fn new(lists: &Lists<&'a [u32]>, s: usize) -> Self {
+        let rows = lists.list.get(get(lists.from, s)..get(lists.from, s + 1)).unwrap_or_default();
+        let (first, end) = (get(lists.first, s), get(lists.first, s + 1));
+        Self { first, end, rows, from: get(lists.panel, s), to: get(lists.panel, s + 1) }
+    }
+
+    /// Numbers of a block column.
+    fn length(&self) -> usize {
+        9 * self.rows.len()
+    }
+}
+
+impl<'a, T: Real> Supernodes<'a, T> {
+    /// Cuts the workspace; `None` if it is too small.
+    pub(crate) fn new(
+        sizes: &Sizes,
+        lists: Lists<&'a [u32]>,
+        numbers: &'a mut [T],
+        words: &'a mut [u32],
+    ) -> Option<Self> {
+        let (panels, numbers) = numbers.split_at_mut_checked(sizes.panels)?;
+        let (update, numbers) = numbers.split_at_mut_checked(9 * sizes.longest)?;
+        let vector = numbers.get_mut(..3 * sizes.rows)?.as_chunks_mut().0;
+        let (head, words) = words.split_at_mut_checked(sizes.supers)?;
+        let (next, words) = words.split_at_mut_checked(sizes.supers)?;
+        let (used, words) = words.split_at_mut_checked(sizes.supers)?;
+        let local = words.get_mut(..sizes.rows)?;
+        Some(Self { lists, panels, update, vector, head, next, used, local })
+    }
+
+    /// A into the panels. `blocks` is scratch.
+    #[inline(never)]
+    fn assemble<F: Force<T>>(&mut self, system: &System<'_, T, F>, blocks: &mut [[T; 6]]) {
+        for number in self.panels.iter_mut() {
+            *number = T::ZERO;
+        }
+        system.diagonal(blocks);
+        for s in 0..self.head.len() {
+            let node = Node::new(&self.lists, s);
+            let rows = self.lists.row.get(node.first..node.end).unwrap_or_default();
+            for (k, row) in rows.iter().enumerate() {
+                if let Some(block) = blocks.get(*row as usize) {
+                    let at = node.from + k * (node.length() + 3);
+                    add_block(self.panels, at, 3 * node.rows.len(), Sym3(*block).dense());
+                }
+            }
+        }
+        let mut place = self.lists.place.as_chunks::<2>().0.iter();
+        system.each_spring(|_, _, h| {
+            if let Some([at, column]) = place.next()
+                && *at != NONE
+            {
+                add_block(self.panels, *at as usize, *column as usize, h.dense().map(|h| h.map(T::neg)));
+            }
+        });
+    }
+
+    /// Factors A. `pivots` gets S⁻¹, in elimination order. `false` if a pivot is not positive.
+    #[inline(never)]
+    pub(crate) fn factor<F: Force<T>>(&mut self, system: &System<'_, T, F>, pivots: &mut [[T; 6]]) -> bool {
+        self.assemble(system, pivots);
+        self.head.fill(NONE);
+        for s in 0..self.head.len() {
+            let node = Node::new(&self.lists, s);
+            for (local, position) in node.rows.iter().enumerate() {
+                set(self.local, *position as usize, local);
+            }
+            let mut d = get(self.head, s);
+            while let Some(next) = self.next.get(d).copied().filter(|_| d != NONE as usize) {
+                self.take_from(d, &node, pivots);
+                d = next as usize;
+            }
+            let Some(panel) = self.panels.get_mut(node.from..node.to) else { return false };
+            let Some(pivots) = pivots.get_mut(node.first..node.end) else { return false };
+            if !eliminate(panel, node.length(), pivots) {
+                return false;
+            }
+            self.queue(s, &node, node.end.saturating_sub(node.first));
+        }
+        true
+    }
+
+    /// Puts s, whose rows from `used` on are still to be used, into the list of the supernode that its next row is in.
+    fn queue(&mut self, s: usize, node: &Node<'_>, used: usize) {
+        if let Some(position) = node.rows.get(used) {
+            let at = get(self.lists.of, *position as usize);
+            set(self.used, s, used);
+            set(self.next, s, get(self.head, at));
+            set(self.head, at, s);
+        }
+    }
+
+    /// Takes what supernode d does to `node`.
+    fn take_from(&mut self, d: usize, node: &Node<'_>, pivots: &[[T; 6]]) {
+        let source = Node::new(&self.lists, d);
+        let mut q = get(self.used, d);
+        let Some((done, panel)) = self.panels.split_at_mut_checked(node.from) else { return };
+        let columns = done.get(source.from..source.to).unwrap_or_default();
+        let pivots = pivots.get(source.first..source.end).unwrap_or_default();
+        while let Some(position) = source.rows.get(q).map(|p| *p as usize).filter(|p| *p < node.end) {
+            let rows = source.rows.get(q..).unwrap_or_default();
+            let Some(update) = self.update.get_mut(..9 * rows.len()) else { return };
+            for number in update.iter_mut() {
+                *number = T::ZERO;
+            }
+            for (column, pivot) in columns.chunks_exact(source.length()).zip(pivots) {
+                if let (Some(w), Some(update)) = (three(column), three_mut(&mut *update)) {
+                    let w = below(w, q);
+                    subtract(update, w, &divided(first(w), &Sym3(*pivot)));
+                }
+            }
+            let within = position.saturating_sub(node.first) * node.length();
+            let target = panel.get_mut(within..within + node.length()).and_then(three_mut);
+            if let (Some(target), Some(update)) = (target, three(update)) {
+                scatter(target, update, rows, self.local);
+            }
+            q += 1;
+        }
+        self.queue(d, &source, q);
+    }
+
+    /// x ← A⁻¹ x
+    #[inline(never)]
+    pub(crate) fn solve(&mut self, pivots: &[[T; 6]], x: &mut [Vec3<T>]) {
+        for (z, row) in self.vector.iter_mut().zip(self.lists.row) {
+            *z = x.get(*row as usize).copied().unwrap_or([T::ZERO; 3]);
+        }
+        let supers = self.head.len();
+        for s in 0..supers {
+            self.each_column(s, pivots, |vector, k, pivot, rows, [a, b, c]| {
+                let v = pivot.mul(vector.get(k).copied().unwrap_or([T::ZERO; 3]));
+                for (((row, a), b), c) in rows.iter().zip(a).zip(b).zip(c) {
+                    if let Some(z) = vector.get_mut(*row as usize) {
+                        *z = [
+                            z[0] - ((a[0] * v[0] + b[0] * v[1]) + c[0] * v[2]),
+                            z[1] - ((a[1] * v[0] + b[1] * v[1]) + c[1] * v[2]),
+                            z[2] - ((a[2] * v[0] + b[2] * v[1]) + c[2] * v[2]),
+                        ];
+                    }
+                }
+            });
+        }
+        for s in (0..supers).rev() {
+            self.each_column_back(s, pivots, |vector, k, pivot, rows, [a, b, c]| {
+                let mut sum = vector.get(k).copied().unwrap_or([T::ZERO; 3]);
+                for (((row, a), b), c) in rows.iter().zip(a).zip(b).zip(c) {
+                    let z = vector.get(*row as usize).copied().unwrap_or([T::ZERO; 3]);
+                    sum = vec3::sub(sum, [vec3::dot(*a, z), vec3::dot(*b, z), vec3::dot(*c, z)]);
+                }
+                if let Some(z) = vector.get_mut(k) {
+                    *z = pivot.mul(sum);
+                }
+            });
+        }
+        for (z, row) in self.vector.iter().zip(self.lists.row) {
+            if let Some(x) = x.get_mut(*row as usize) {
+                *x = *z;
+            }
+        }
+    }
+
+    /// Visits the columns of a supernode: the vector, the column's position, its pivot, and its rows below with their
+    /// blocks, three columns.
+    #[inline(always)]
+    fn each_column(
+        &mut self,
+        s: usize,
+        pivots: &[[T; 6]],
+        mut visit: impl FnMut(&mut [Vec3<T>], usize, Sym3<T>, &[u32], [&[Vec3<T>]; 3]),
+    ) {
+        let node = Node::new(&self.lists, s);
+        let columns = self.panels.get(node.from..node.to).unwrap_or_default();
+        let pivots = pivots.get(node.first..node.end).unwrap_or_default();
+        for (k, (column, pivot)) in columns.chunks_exact(node.length()).zip(pivots).enumerate() {
+            let (Some(w), Some(rows)) = (three(column), node.rows.get(k + 1..)) else { return };
+            let blocks = below(w, k + 1).map(|column| column.as_chunks().0);
+            visit(self.vector, node.first + k, Sym3(*pivot), rows, blocks);
+        }
+    }
+
+    /// The same backwards.
+    #[inline(always)]
+    fn each_column_back(
+        &mut self,
+        s: usize,
+        pivots: &[[T; 6]],
+        mut visit: impl FnMut(&mut [Vec3<T>], usize, Sym3<T>, &[u32], [&[Vec3<T>]; 3]),
+    ) {
+        let node = Node::new(&self.lists, s);
+        let columns = self.panels.get(node.from..node.to).unwrap_or_default();
+        let pivots = pivots.get(node.first..node.end).unwrap_or_default();
+        for (k, (column, pivot)) in columns.chunks_exact(node.length()).zip(pivots).enumerate().rev() {
+            let (Some(w), Some(rows)) = (three(column), node.rows.get(k + 1..)) else { return };
+            let blocks = below(w, k + 1).map(|column| column.as_chunks().0);
+            visit(self.vector, node.first + k, Sym3(*pivot), rows, blocks);
+        }
+    }
+}
+
+/// Adds a symmetric block at a place of a panel whose columns are so long.
+#[inline(always)]
+fn add_block<T: Real>(panels: &mut [T], at: usize, length: usize, block: [[T; 3]; 3]) {
+    for (c, column) in block.into_iter().enumerate() {
+        let at = at + c * length;
+        for (number, h) in panels.get_mut(at..at + 3).unwrap_or_default().iter_mut().zip(column) {
+            *number += h;
+        }
+    }
+}
+
+/// target += update, block rows of the update going where `local` says.
+#[inline(always)]
+fn scatter<T: Real>(target: [&mut [T]; 3], update: [&[T]; 3], rows: &[u32], local: &[u32]) {
+    let [t0, t1, t2] = target.map(|column| column.as_chunks_mut::<3>().0);
+    let [u0, u1, u2] = update.map(|column| column.as_chunks::<3>().0);
+    for (((row, u0), u1), u2) in rows.iter().zip(u0).zip(u1).zip(u2) {
+        let at = get(local, *row as usize);
+        if let (Some(t0), Some(t1), Some(t2)) = (t0.get_mut(at), t1.get_mut(at), t2.get_mut(at)) {
+            (*t0, *t1, *t2) = (vec3::add(*t0, *u0), vec3::add(*t1, *u1), vec3::add(*t2, *u2));
+        }
+    }
+}
+
+/// The columns of one panel eliminate each other; `pivots` gets their S⁻¹.
+fn eliminate<T: Real>(panel: &mut [T], length: usize, pivots: &mut [[T; 6]]) -> bool {
+    let mut rest = panel;
+    for (k, pivot) in pivots.iter_mut().enumerate() {
+        let Some((column, later)) = rest.split_at_mut_checked(length) else { return false };
+        let Some(w) = three(column) else { return false };
+        let [[xx, ..], [xy, yy, _], [xz, yz, zz]] = first(below(w, k));
+        let Some(inverted) = inverse(Sym3([xx, yy, zz, xy, xz, yz])) else { return false };
+        *pivot = inverted.0;
+        for (j, target) in later.chunks_exact_mut(length).enumerate() {
+            let w = below(w, k + 1 + j);
+            if let Some(target) = three_mut(target) {
+                subtract(below_mut(target, k + 1 + j), w, &divided(first(w), &inverted));
+            }
+        }
+        rest = later;
+    }
+    true
+}
