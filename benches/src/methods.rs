@@ -4,7 +4,8 @@
 use std::time::Duration;
 
 use cpu_time::ThreadTime;
-use hooke::{BandedLdl, Force, Integrator, SceneIn, StepError};
+use hooke::{BandedLdl, Force, Integrator, SceneIn, StepError, WideJacobi};
+use hooke_harness::host::Host;
 
 use crate::scenario::{Euler, HostScene};
 
@@ -39,6 +40,16 @@ pub(crate) fn methods<F: Force<f64> + Clone>() -> Vec<Method<F>> {
         Method {
             name: "hooke block-Jacobi PCG",
             make: |euler, r| Box::new(Timed(euler.clone().tolerance(r).max_iterations(MOST_ITERATIONS))),
+            workspace: scene_bytes,
+        },
+        Method {
+            name: "hooke wide PCG",
+            make: |euler, r| {
+                growing(move |numbers, words| {
+                    let solver = WideJacobi::new(vec![0.0; numbers], vec![0; words], Host::new());
+                    Box::new(Timed(euler.clone().tolerance(r).max_iterations(MOST_ITERATIONS).solver(solver)))
+                })
+            },
             workspace: scene_bytes,
         },
         Method {
