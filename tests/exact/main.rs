@@ -9,6 +9,7 @@ mod catenary;
 mod coincident;
 mod counters;
 mod damping;
+mod direct;
 mod edits;
 mod energy;
 mod errors;
