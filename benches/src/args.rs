@@ -25,9 +25,9 @@ pub(crate) struct Args {
     /// Relative tolerances of the iterative solvers [default: 1e-3 1e-6 1e-10; with --growth 1e-3]
     #[arg(long, value_name = "R", num_args = 1.., value_delimiter = ',', allow_negative_numbers = true)]
     pub(crate) tolerance: Vec<f64>,
-    /// States of the trajectory to solve at, t = 0.25 to 0.5 s
-    #[arg(long, value_name = "N", default_value_t = 6)]
-    pub(crate) states: usize,
+    /// States of the trajectory to solve at, t = 0.25 to 0.5 s [default: 6; with --growth 3]
+    #[arg(long, value_name = "N")]
+    pub(crate) states: Option<usize>,
     /// How time and memory of Hooke's methods grow: cloth:32 to 512, lattices up to 10⁶ springs (or the SCENEs given)
     #[arg(long)]
     pub(crate) growth: bool,

@@ -75,7 +75,7 @@ impl Job for Compare<'_> {
     fn run<F: Force<f64> + Clone>(self, mut scenario: Scenario<F>) -> Result<Self::Output, Wrong> {
         let name = scenario.name.clone();
         let failed = |why: String| Wrong::Failed(format!("{name}: {why}"));
-        let steps = Scenario::<F>::steps(scenario.euler.dt(), self.args.states)?;
+        let steps = Scenario::<F>::steps(scenario.euler.dt(), self.args.states.unwrap_or(STATES))?;
         let of = steps.last().copied().unwrap_or(0);
         let step = |step| self.progress.set_message(format!("{name}: trajectory, step {step}/{of}"));
         scenario.record(&steps, None, step).map_err(|error| failed(error.to_string()))?;
@@ -85,6 +85,7 @@ impl Job for Compare<'_> {
 }
 
 const SCENES: [&str; 3] = ["cloth:32", "cloth:64", "chain:1000"];
+const STATES: usize = 6;
 const TOLERANCES: [f64; 3] = [1e-3, 1e-6, 1e-10];
 
 fn compare(args: &Args) -> Result<String, Wrong> {
@@ -95,7 +96,7 @@ fn compare(args: &Args) -> Result<String, Wrong> {
     let plans: Result<Vec<Plan>, InputError> = names.iter().map(|name| args.plan(name)).collect();
     let plans = plans?;
     for plan in &plans {
-        Scenario::<()>::steps(plan.dt, args.states)?;
+        Scenario::<()>::steps(plan.dt, args.states.unwrap_or(STATES))?;
     }
     if let Some(file) = &args.json {
         safe::prepare_file(file)?;

@@ -6,7 +6,7 @@ use std::ops::Range;
 use plotters::coord::Shift;
 use plotters::prelude::*;
 
-use crate::growth::{Family, Point};
+use crate::family::{Family, Point};
 
 const SIZE: (u32, u32) = (1100, 500);
 const COLOURS: [RGBColor; 6] = [

@@ -25,6 +25,7 @@ mod operator;
 // ... and what is made of it.
 mod args;
 mod compare;
+mod family;
 mod fit;
 mod growth;
 mod growth_plot;

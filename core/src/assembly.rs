@@ -143,18 +143,17 @@ fn linearize<T: Real, F: Force<T>, L: Law>(
     scaling: Scaling<T>,
 ) -> u32 {
     let mut replaced = 0;
-    let mut edge = 0;
-    for row in 0..island.matrix.own.len() {
+    let (own, other, spring) = (island.matrix.own, island.matrix.other, island.spring);
+    let mut edges = other.iter().zip(spring).enumerate();
+    for (row, own) in own.iter().enumerate() {
         let near = island.end(row);
-        let last = edge + island.matrix.own.get(row).map_or(0, |own| *own as usize);
-        while edge < last {
-            let (Some(other), Some(j)) = (island.matrix.other.get(edge), island.spring.get(edge)) else {
-                break;
-            };
-            let (other, j) = (*other as usize, *j as usize);
+        // The row's own sum stays in registers; b takes it at the end, after what rows above have left there.
+        let mut b = island.vectors.b.get(row).copied().unwrap_or([T::ZERO; 3]);
+        for (edge, (other, j)) in edges.by_ref().take(*own as usize) {
+            let other = *other as usize;
             let far = island.end(other);
             let delta = vec3::sub(near.position, far.position);
-            let loaded = Loaded::new::<F, L>(&island.matrix.rows, forces, j, delta);
+            let loaded = Loaded::new::<F, L>(&island.matrix.rows, forces, *j as usize, delta);
             let hessian = loaded.hessian(scaling);
             replaced += u32::from(loaded.replaced());
             let product = hessian.mul(vec3::sub(near.velocity, far.velocity));
@@ -162,9 +161,14 @@ fn linearize<T: Real, F: Force<T>, L: Law>(
             if let Some(place) = island.matrix.hessian.get_mut(edge) {
                 *place = hessian.pack();
             }
-            scatter(row, other, sum, island.vectors.b);
+            b = vec3::add(b, sum);
+            if let Some(other) = island.vectors.b.get_mut(other) {
+                *other = vec3::sub(*other, sum);
+            }
             charge_ends(row, other, &hessian, island.vectors.mu);
-            edge += 1;
+        }
+        if let Some(row) = island.vectors.b.get_mut(row) {
+            *row = b;
         }
     }
     replaced

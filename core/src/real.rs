@@ -67,6 +67,25 @@ pub(crate) fn larger<T: Real>(a: T, b: T) -> T {
     if a < b { b } else { a }
 }
 
+#[cfg(not(feature = "std"))]
+use libm::{sqrt, sqrtf};
+/// The host's own root: the same bits (both are correctly rounded), but one instruction, in loops that the compiler can
+/// widen.
+#[cfg(feature = "std")]
+mod host {
+    extern crate std;
+    #[inline(always)]
+    pub(super) fn sqrt(x: f64) -> f64 {
+        x.sqrt()
+    }
+    #[inline(always)]
+    pub(super) fn sqrtf(x: f32) -> f32 {
+        x.sqrt()
+    }
+}
+#[cfg(feature = "std")]
+use host::{sqrt, sqrtf};
+
 macro_rules! real {
     ($t:ty, $sqrt:path, $tolerance:expr) => {
         impl Real for $t {
@@ -106,5 +125,5 @@ macro_rules! real {
     };
 }
 
-real!(f32, libm::sqrtf, 1e-4);
-real!(f64, libm::sqrt, 1e-6);
+real!(f32, sqrtf, 1e-4);
+real!(f64, sqrt, 1e-6);

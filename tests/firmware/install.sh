@@ -1,3 +1,4 @@
+# shellcheck shell=bash
 # What the check needs, installed where absent. Sourced by check.sh.
 
 # Makes `compile` (arguments of cargo) work for a target: with rustup's library where it can be had, else with Debian's
@@ -23,6 +24,9 @@ compiler_for() {
         CARGO_UNSTABLE_BUILD_STD=core /usr/bin/cargo)
 }
 
+# The version of the compiler that was last chosen.
+compiler_version() { if [ "${compile[0]}" = cargo ]; then rustc --version; else /usr/bin/rustc --version; fi | cut -d' ' -f2; }
+
 # Emulators by Debian's packages, where there is no such command yet; elsewhere install QEMU 7 or newer and node 18 or
 # newer yourself.
 install_tools() {
@@ -36,6 +40,7 @@ qemu-system-riscv32 qemu-system-misc
 qemu-system-riscv64 qemu-system-misc
 node nodejs
 size binutils
+llvm-objdump llvm
 TOOLS
     [ ${#packages[@]} -gt 0 ] || return 0
     command -v apt-get >/dev/null || { echo "firmware: please install ${packages[*]}"; exit 1; }

@@ -1,3 +1,4 @@
+# shellcheck shell=bash
 # Building and running one target's programs. Sourced by check.sh.
 
 # The columns of targets.txt for a name: sets triple, board, flags, machine.
@@ -13,6 +14,7 @@ programs() {
     case $1 in
         microbit) echo rope_f32 rope_f64 ;;
         wasm32) ;;
+        m4f) echo all minimal measure; (cd image/src/bin && basename -s .rs with_*.rs) ;;
         *) echo all minimal measure ;;
     esac
 }
@@ -24,7 +26,7 @@ build_target() {
     compiler_for "$triple"
     for program in $(programs "$1"); do bins+=(--bin "$program"); done
     case $board in
-        -) link= package=firmware-wasm ;;
+        -) link='' package=firmware-wasm ;;
         aarch64) link="-Clink-arg=-T$PWD/boards/aarch64/link.x" ;;
         riscv) link="-L$PWD/boards/riscv -Clink-arg=-Tmemory.x -Clink-arg=-Tlink.x" ;;
         *) link="-L$PWD/boards/$board -Clink-arg=-Tlink.x" ;;
@@ -57,7 +59,7 @@ same_bits() {
 
 # Runs all of a target's programs and compares.
 run_target() {
-    local name=$1 code=0 precision
+    local name=$1 code=0 precision program
     if [ "$name" = wasm32 ]; then
         node wasm/run.mjs "$out/$name/firmware_wasm.wasm" >"$out/$name/trace" || code=$?
         same_bits "$name" "$out/$name/trace" "$code" >"$out/$name/jobs"
@@ -72,16 +74,19 @@ run_target() {
     fi
     emulate "$name" all >"$out/$name/trace" || code=$?
     same_bits "$name" "$out/$name/trace" "$code" >"$out/$name/jobs" || return 1
-    emulate "$name" minimal || { echo "$name: the minimal program failed"; return 1; }
+    for program in $(programs "$name" | grep -vx 'all\|measure'); do
+        emulate "$name" "$program" || { echo "$name: the program $program failed"; return 1; }
+    done
     local shift=0
     case $name in m*) shift=6 ;; esac
     emulate "$name" measure -icount "shift=$shift" >"$out/$name/measured" || { echo "$name: measure failed"; return 1; }
+    bound_stack "$name"
 }
 
 # The same jobs on this machine: not optimised, and optimised in every way.
 host_variants() {
     local variant profile
-    for variant in debug:dev release:release O2:o2 Os:s native:release; do
+    for variant in debug:dev O0:o0 O1:o1 O2:o2 O3:release Os:s Oz:z native:release; do
         profile=${variant#*:} variant=${variant%%:*}
         local folder=$CARGO_TARGET_DIR flags=
         [ "$variant" != native ] || { folder=$CARGO_TARGET_DIR/native flags=-Ctarget-cpu=native; }

@@ -1,22 +1,18 @@
+# shellcheck shell=bash
 # The table of what was seen. Sourced by check.sh.
 
-# Bytes of sections: file, names.
-bytes() { size -A "$1" | awk -v names=" $2 " 'index(names, " " $1 " ") { sum += $2 } END { print sum + 0 }'; }
-
-# What was seen. Flash and RAM are the minimal program's (a rope of 40 particles in f32); instructions and stack are of
-# one step of that rope and of the 8×8 cloth.
+# Jobs of which all bits agree; flash and RAM of the minimal program; of one step of the rope and of the cloth
+# instructions, iterations, and what the stack was painted over, with the bound.
 table() {
-    local name row measured
-    printf '%-13s %5s %8s %7s | %-40s | %s\n' target jobs flash RAM 'rope40: step, its, per it., rest, stack' cloth8x8
+    local name row
+    printf '%-13s %4s %7s %6s | %-37s | %s\n' target jobs flash RAM 'rope40: step, its, painted and bound' 'cloth8x8: step, its'
     for name in "$@" ${variants[@]+"${variants[@]}"}; do
-        row=$(printf '%-13s %5s' "$name" "$(awk '{ sum += $1 } END { print sum + 0 }' "$out/$name/jobs" 2>/dev/null || echo 0)")
-        if [ -f "$out/$name/minimal" ]; then
-            row+=$(printf ' %8s %7s' "$(bytes "$out/$name/minimal" '.vector_table .init .text .rodata .data')" \
-                "$(bytes "$out/$name/minimal" '.data .bss')")
-        fi
-        if [ -f "$out/$name/measured" ]; then
-            row+=$(awk '{ for (i = 1; i <= NF; i++) if ($i == 0) $i = "-"
-                printf " | %8s %3s %7s %8s %6s", $3, $5, $7, $9, $11 }' "$out/$name/measured")
+        row=$(printf '%-13s %4s' "$name" "$(awk '{ sum += $1 } END { print sum + 0 }' "$out/$name/jobs" 2>/dev/null || echo 0)")
+        if [ -f "$out/$name/painted" ]; then
+            row+=$(printf ' %7s %6s' "$(flash "$out/$name/minimal")" "$(ram "$out/$name/minimal")")
+            row+=$(awk -v stack="$(cat "$out/$name/painted")" '{ n[$2] = $3 } END { split(stack, s, " ")
+                printf " | %12s %5s %8s %8s | %10s %5s", n["rope40-step"], n["rope40-iterations"], s[1], s[2],
+                    n["cloth8x8-step"], n["cloth8x8-iterations"] }' "$out/$name/measured")
         fi
         echo "$row"
     done

@@ -36,9 +36,18 @@ const CHOLMOD: Program = Program {
     needs: "CHOLMOD needs libsuitesparse-dev (and libopenblas0-serial, or its BLAS is slow)",
 };
 
-/// Fast on this machine, which is all that is asked of a peer.
-const FLAGS: [&str; 6] =
-    ["-std=c++17", "-O3", "-march=native", "-DNDEBUG", "-I/usr/include/eigen3", "-I/usr/include/suitesparse"];
+/// Fast on this machine, which is all that is asked of a peer. (Loops aligned: else where the linker happens to put
+/// Eigen's product makes it a third slower.)
+const FLAGS: [&str; 8] = [
+    "-std=c++17",
+    "-O3",
+    "-march=native",
+    "-falign-loops=64",
+    "-falign-functions=64",
+    "-DNDEBUG",
+    "-I/usr/include/eigen3",
+    "-I/usr/include/suitesparse",
+];
 
 pub(crate) fn eigen_ldlt(pattern: &Pattern, _: f64) -> Result<Box<dyn Peer>, String> {
     serve(&EIGEN, &["ldlt".into()], pattern)
@@ -76,9 +85,12 @@ fn compiled(program: &Program) -> Result<PathBuf, String> {
     command.args(FLAGS).arg(&source).arg("-o").arg(&part).args(program.link);
     let output = command.output().map_err(|_| format!("needs a C++ compiler ('{compiler}' does not run)"))?;
     if !output.status.success() {
-        let first = String::from_utf8_lossy(&output.stderr);
-        let first = first.lines().find(|line| line.contains("error")).unwrap_or_default();
-        return Err(format!("{} ({})", program.needs, first.trim()));
+        let said = String::from_utf8_lossy(&output.stderr);
+        let why = said
+            .lines()
+            .find_map(|line| line.split_once("error: "))
+            .map_or("it does not link", |said| said.1);
+        return Err(format!("{} ({})", program.needs, why.trim()));
     }
     fs::rename(&part, &binary).map_err(|error| error.to_string())?;
     Ok(binary)

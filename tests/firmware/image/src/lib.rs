@@ -4,6 +4,7 @@
 
 pub mod console;
 pub mod count;
+pub mod minimal;
 pub mod run;
 pub mod stack;
 

@@ -1,0 +1,20 @@
+//! The minimal program, and a pin that moves.
+#![no_std]
+#![no_main]
+
+use firmware_image::minimal::{Rope, build, end, euler};
+use hooke::{Motion, Scene};
+use static_cell::ConstStaticCell;
+
+static ROPE: ConstStaticCell<Rope> = ConstStaticCell::new(Scene::new());
+
+/// Called by the startup code.
+// SAFETY: the only `main` of this program.
+#[unsafe(no_mangle)]
+extern "C" fn main() -> ! {
+    // `take` would panic the second time; then the price would include the printing of panics.
+    let Some(rope) = ROPE.try_take() else { end(false) };
+    let motion = Motion { particle: 0, position: [0.01, 0.0, 0.0], velocity: [0.0; 3] };
+    let mut euler = euler();
+    end(build(rope).is_ok() && (0..60).all(|_| rope.step_moving(&mut euler, &[motion]).is_ok()))
+}

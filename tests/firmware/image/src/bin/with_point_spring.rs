@@ -1,0 +1,19 @@
+//! The minimal program, and a spring to a point in space.
+#![no_std]
+#![no_main]
+
+use firmware_image::minimal::{PARTICLES, Rope, build, end, euler};
+use hooke::{PointSpring, Scene};
+use static_cell::ConstStaticCell;
+
+static ROPE: ConstStaticCell<Rope> = ConstStaticCell::new(Scene::new());
+
+/// Called by the startup code.
+// SAFETY: the only `main` of this program.
+#[unsafe(no_mangle)]
+extern "C" fn main() -> ! {
+    // `take` would panic the second time; then the price would include the printing of panics.
+    let Some(rope) = ROPE.try_take() else { end(false) };
+    let mut euler = euler().with(PointSpring::new(PARTICLES - 1, [1.0, 0.0, 0.0], 10.0));
+    end(build(rope).is_ok() && (0..60).all(|_| rope.step(&mut euler).is_ok()))
+}

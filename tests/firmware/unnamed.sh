@@ -1,0 +1,45 @@
+# shellcheck shell=bash
+# A feature that a program does not name costs it nothing: the minimal program is the same, byte for byte, when core has
+# no trace of drag, spring damping, point forces, point springs, cables, snapshots, reactions, energies, momenta and the
+# stiffness matrix. Sourced by check.sh.
+
+# Takes the features out of a copy of core's sources.
+without_features() {
+    local source=$1/core/src
+    rm "$source"/{snapshot,reaction,energy,momentum,stiffness}.rs
+    rm "$source"/force/{drag,damping,point_force,point_spring}.rs
+    sed -i -E '/^(pub )?(mod|use) (snapshot|reaction|energy|momentum|stiffness)\b/d' "$source/lib.rs"
+    sed -i -E 's/^(pub use force::).*$/\1{Force, Gravity};/' "$source/lib.rs"
+    sed -i -E '/^(pub )?(mod|use) (drag|damping|point_force|point_spring)\b/d' "$source/force/mod.rs"
+    # Comments too: what they belong to is gone.
+    sed -i -E '/^ *\/\/\//d; /^use crate::energy/d; /^    pub fn (springs|reaction)\b/,/^    }/d' "$source/scene.rs"
+    sed -i -E '/^impl<M: Memory<Law = Mixed>>/,/^}/d; /^use crate::law::Mixed/d' "$source/edit.rs"
+}
+
+# The minimal program for the M4F over a copy of the sources.
+minimal_of() {
+    local compile=() copy=$1
+    compiler_for thumbv7em-none-eabihf
+    (cd "$copy/tests/firmware" && RUSTFLAGS="-L$PWD/boards/mps2 -Clink-arg=-Tlink.x -Awarnings --cap-lints=warn" "${compile[@]}" build \
+        --quiet --profile image --target thumbv7em-none-eabihf -p firmware-image --bin minimal \
+        --target-dir "$CARGO_TARGET_DIR/unnamed") || { echo "firmware: unnamed.sh does not know core as it is now"; return 1; }
+    cp "$CARGO_TARGET_DIR/unnamed/thumbv7em-none-eabihf/image/minimal" "$2"
+}
+
+unnamed() {
+    local copy=$out/copy
+    mkdir -p "$copy/tests"
+    cp ../../Cargo.toml "$copy/"
+    cp -r ../../core "$copy/core"
+    mkdir "$copy/tests/firmware"
+    cp -r Cargo.toml Cargo.lock jobs host image wasm boards "$copy/tests/firmware/"
+    # The jobs name every feature; the minimal program none of them.
+    sed -i '/^firmware-jobs/d' "$copy/tests/firmware/image/Cargo.toml"
+    sed -i '/^pub mod run;/d' "$copy/tests/firmware/image/src/lib.rs"
+    minimal_of "$copy" "$out/minimal-with" || return 1
+    without_features "$copy"
+    minimal_of "$copy" "$out/minimal-without" || return 1
+    cmp "$out/minimal-with" "$out/minimal-without" ||
+        { echo "firmware: a feature that the minimal program does not name is in its image"; return 1; }
+    echo "firmware: without the features that it does not name, the minimal program is the same, byte for byte"
+}
