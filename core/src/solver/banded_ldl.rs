@@ -110,7 +110,7 @@ impl<T: Real, B: AsMut<[T]>> Solver<T> for BandedLdl<B> {
         Ok(if width <= 1 {
             direct::solve(problem, stop, &mut Chain { towards: workspace.as_chunks_mut().0 })
         } else {
-            let (copy, columns) = workspace.split_at_mut(9 * width);
+            let (copy, columns) = workspace.split_at_mut_checked(9 * width).unwrap_or_default();
             direct::solve(problem, stop, &mut Band { width, copy, columns })
         })
     }
@@ -166,14 +166,19 @@ fn subtract<T: Real>(y: &mut [T], [a, b, c]: [&[T]; 3], s: Vec3<T>) {
 }
 
 impl<T: Real> Band<'_, T> {
+    /// Numbers of a block column; not 0, so that a slice can be cut into such.
+    fn length(&self) -> usize {
+        (9 * self.width).max(1)
+    }
+
     /// A below its diagonal, by columns.
     fn assemble<F: Force<T>>(&mut self, system: &System<'_, T, F>) {
-        let (width, rows) = (self.width, system.particles());
+        let (length, rows) = (self.length(), system.particles());
         for number in self.columns.iter_mut() {
             *number = T::ZERO;
         }
         system.each_spring(|row, other, h| {
-            let column = self.columns.chunks_exact_mut(9 * width).nth(row).and_then(three_mut);
+            let column = self.columns.chunks_exact_mut(length).nth(row).and_then(three_mut);
             let (Some(column), true) = (column, other < rows) else { return };
             let from = 3 * (other.saturating_sub(row).saturating_sub(1));
             for (column, block) in column.into_iter().zip(h.dense()) {
@@ -190,7 +195,7 @@ impl<T: Real> Factors<T> for Band<'_, T> {
     fn factor<F: Force<T>>(&mut self, system: &System<'_, T, F>, pivots: &mut [[T; 6]]) -> bool {
         system.diagonal(pivots);
         self.assemble(system);
-        let length = 9 * self.width;
+        let length = self.length();
         let (mut pivots, mut columns): (&mut [[T; 6]], &mut [T]) = (pivots, self.columns);
         loop {
             let Some((pivot, later)) = pivots.split_first_mut() else { return true };
@@ -209,7 +214,7 @@ impl<T: Real> Factors<T> for Band<'_, T> {
 
     #[inline(never)]
     fn solve(&mut self, pivots: &[[T; 6]], x: &mut [Vec3<T>]) {
-        let length = 9 * self.width;
+        let length = self.length();
         let mut rest = &mut *x;
         for (column, pivot) in self.columns.chunks_exact(length).zip(pivots) {
             let (Some((first, below)), Some(l)) = (rest.split_first_mut(), three(column)) else { break };

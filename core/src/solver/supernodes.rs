@@ -52,9 +52,9 @@ impl<'a> Node<'a> {
         Self { first, end, rows, from: get(lists.panel, s), to: get(lists.panel, s + 1) }
     }
 
-    /// Numbers of a block column.
+    /// Numbers of a block column; not 0, so that a slice can be cut into such.
     fn length(&self) -> usize {
-        9 * self.rows.len()
+        (9 * self.rows.len()).max(1)
     }
 }
 
