@@ -1,5 +1,8 @@
 //! Direct solvers: one solve is exact to rounding; a small workspace, a changed pattern or a breakdown is never a wrong answer.
 
+use std::cell::Cell;
+use std::rc::Rc;
+
 use hooke::{
     BandedLdl, Ending, IslandReport, LinearlyImplicitEuler, Real, Report, Solver, SparseLdl, StepError,
 };
@@ -234,4 +237,46 @@ fn a_pivot_that_rounding_makes_negative_is_told_and_pcg_answers() {
         check(step(&mut b, &data, 1e-4, direct::sparse(&data)), &b);
     }
     assert_eq!(seen, 6);
+}
+
+/// Words of which one changes behind the solver's back.
+struct Tampered {
+    words: Vec<u32>,
+    change: Rc<Cell<Option<(usize, u32)>>>,
+}
+
+impl AsMut<[u32]> for Tampered {
+    fn as_mut(&mut self) -> &mut [u32] {
+        if let Some((at, value)) = self.change.take() {
+            self.words[at] = value;
+        }
+        &mut self.words
+    }
+}
+
+#[test]
+fn a_wrong_analysis_is_caught_by_the_certificate_whatever_word_of_it_is_wrong() {
+    let data = generate::cloth(4);
+    let exact = walk::<f64>(&data, direct::banded(&data));
+    let (mut fallbacks, mut fine) = (0, 0);
+    // Behind the header: rows, supernodes, places of blocks, lists.
+    for at in 8..8 + 2 * 14 + 2 * 42 + 3 * 10 + 40 {
+        for value in [0, 1, 13, 1_000, u32::MAX] {
+            let change = Rc::new(Cell::new(None));
+            let words = Tampered { words: vec![0; 1_000], change: Rc::clone(&change) };
+            let mut solver = SparseLdl::new([7, 1], vec![0.0; 9 * 16 * 16], words);
+            let mut scene = build::scene::<f64>(&data);
+            step(&mut scene, &data, 1e-6, &mut solver);
+            change.set(Some((at, value)));
+            let (report, _) = step(&mut scene, &data, 1e-6, &mut solver);
+            assert!(report.lower <= report.upper && report.upper < 1e-12, "word {at} = {value}: {report:?}");
+            let expected = exact[1].0.iter().map(|bits| f64::from_bits(bits[1]));
+            for (x, y) in scene.positions().iter().zip(expected) {
+                assert!((x[1] - y).abs() < 1e-6, "word {at} = {value}: {x:?}, not {y}");
+            }
+            fallbacks += report.fallbacks;
+            fine += u32::from(report.fallbacks == 0);
+        }
+    }
+    assert!(fallbacks > 100 && fine > 100, "{fallbacks} caught, {fine} harmless");
 }
