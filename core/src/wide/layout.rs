@@ -50,6 +50,19 @@ impl Layout {
         self.fingerprint == fingerprint(matrix)
     }
 
+    /// Are there not too many distances? (No memory is needed to see that.)
+    pub(crate) fn is_conceivable<T: Real>(matrix: &Matrix<'_, T>) -> bool {
+        let mut layout = Self::none();
+        let rows = matrix.own.len();
+        each_spring(matrix, |row, other, _| {
+            if other >= rows {
+                return Some(());
+            }
+            layout.meet(place(matrix, other)?.checked_sub(place(matrix, row)?)? as u32)
+        })
+        .is_some()
+    }
+
     /// Finds the layout, and in `run` which run each spring belongs to. `None` if the springs have too many distances,
     /// or the runs would be mostly zeros.
     pub(crate) fn find<T: Real>(matrix: &Matrix<'_, T>, run: &mut [u32]) -> Option<Self> {

@@ -50,17 +50,27 @@ impl<N, W, D: Dispatch> WideJacobi<N, W, D> {
     pub const fn new(numbers: N, words: W, dispatch: D) -> Self {
         Self { numbers, words, dispatch, layout: Layout::none(), found: false }
     }
+
+    /// Was the last island solved in lanes? If not, its springs join particles at too many distances, and
+    /// [`crate::BlockJacobi`] solved it.
+    pub fn in_lanes(&self) -> bool {
+        self.found
+    }
 }
 
 impl WideJacobi<(), ()> {
     /// How many numbers and words a scene needs as its pins and springs are now. Islands share the workspace.
-    /// `scratch` is two words per spring; with less of it the answer is that of no layout, (0, 0).
+    /// `scratch` is a word per spring.
     pub fn needs_of<M: Memory>(scene: &mut MassSpring<M>, scratch: &mut [u32]) -> (usize, usize) {
         let parts = scene.parts();
         let state = parts.network.state();
         let (mut numbers, mut words) = (0, 0);
         for k in 0..parts.islands.count {
             let island = parts.islands.island(k, parts.work, &state);
+            if !Layout::is_conceivable(&island.matrix) {
+                continue;
+            }
+            words = core::cmp::max(words, island.matrix.other.len());
             let Some(layout) = Layout::find(&island.matrix, scratch) else { continue };
             let edges = island.matrix.other.len();
             numbers = core::cmp::max(numbers, work::needs(&layout));
@@ -83,9 +93,15 @@ impl<T: Real, N: AsMut<[T]>, W: AsMut<[u32]>, D: Dispatch> Solver<T> for WideJac
         let known = self.found && self.layout.fits(matrix);
         if !known {
             let room = words.len();
-            let run = words.get_mut(..edges).ok_or(StepError::Workspace { numbers: 0, words: edges });
             self.found = false;
-            let Some(layout) = Layout::find(matrix, run?) else {
+            // Most scenes without a layout are known as such before the springs are looked at one by one.
+            let layout = if Layout::is_conceivable(matrix) {
+                let run = words.get_mut(..edges).ok_or(StepError::Workspace { numbers: 0, words: edges })?;
+                Layout::find(matrix, run)
+            } else {
+                None
+            };
+            let Some(layout) = layout else {
                 return BlockJacobi.solve(Problem { system, vectors, ..problem }, stop);
             };
             let needs = (work::needs(&layout), edges + 2 * anchors_of(matrix));
