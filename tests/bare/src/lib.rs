@@ -18,6 +18,7 @@ mod snapshots;
 mod stepping;
 mod system;
 mod vectors;
+mod wide;
 
 unsafe extern "C" {
     fn hooke_panicked() -> !;
