@@ -36,17 +36,21 @@ pub(super) struct Hierarchy<'a> {
 
 impl Level<'_> {
     /// Two steps from x and its residual r; leaves the residual before the second step's, and that step in d.
-    fn chebyshev(&mut self) {
-        self.smooth(0.0, FIRST);
-        self.subtract_product();
-        self.smooth(KEEP, STEP);
+    fn from_zero(&mut self) {
+        self.start(FIRST);
+        self.relax(Some((KEEP, STEP)));
+    }
+
+    /// The same from an x whose last change d is not yet in r.
+    fn go_on(&mut self) {
+        self.relax(Some((0.0, FIRST)));
+        self.relax(Some((KEEP, STEP)));
     }
 
     /// r of the next level = Pᵀr; its x = 0.
     #[inline(never)]
     fn restrict(&self, coarse: &mut Level<'_>) {
         coarse.r.clear();
-        coarse.x.clear();
         for (i, aggregate) in self.pattern.aggregate.iter().enumerate() {
             coarse.r.add(*aggregate as usize, self.r.at(i));
         }
@@ -70,7 +74,7 @@ impl Level<'_> {
     /// x = A⁻¹ r, or two steps towards it.
     fn solve(&mut self, dense: &Dense<'_>) {
         if !dense.sound {
-            self.chebyshev();
+            self.from_zero();
             return;
         }
         let mut y = [0.0; UNKNOWNS];
@@ -79,7 +83,7 @@ impl Level<'_> {
         }
         dense.solve(&mut y);
         for (i, y) in y.as_chunks::<3>().0.iter().enumerate().take(self.pattern.size.rows) {
-            self.x.add(i, *y);
+            self.x.set(i, *y);
         }
     }
 }
@@ -94,8 +98,12 @@ impl<'a> Hierarchy<'a> {
             // Down.
             while l < last {
                 let Some((fine, coarse)) = self.pair(l) else { return };
-                fine.chebyshev();
-                fine.subtract_product();
+                if second & (1 << l) == 0 {
+                    fine.from_zero();
+                } else {
+                    fine.go_on();
+                }
+                fine.relax(None);
                 fine.restrict(coarse);
                 l += 1;
                 second &= !(1 << l);
@@ -111,16 +119,12 @@ impl<'a> Hierarchy<'a> {
                 }
                 if l < last && second & (1 << l) == 0 {
                     second |= 1 << l;
-                    if let Some(Some(level)) = self.levels.get_mut(l) {
-                        level.subtract_product();
-                    }
                     break;
                 }
                 l -= 1;
                 let Some((fine, coarse)) = self.pair(l) else { return };
                 fine.prolong(coarse);
-                fine.subtract_product();
-                fine.chebyshev();
+                fine.go_on();
             }
         }
     }

@@ -7,7 +7,7 @@
 //! at least eight longer than there are rows, and what lies beyond the rows is zero, so that a tile may reach past the end.
 
 use super::runs::{Extent, Run};
-use super::tile::{Planes, Tile, WIDTH, add3, load, mul, sub3, symmetric};
+use super::tile::{Planes, Tile, WIDTH};
 use super::words::{NONE, take};
 
 /// Length of a plane.
@@ -88,71 +88,6 @@ impl<'a> Level<'a> {
         let blocks = take(pool, TILE * size.extent.tiles)?;
         let pattern = Pattern::carve(words, size)?;
         Some(Self { pattern, held_count: 0, blocks, mass, held, inverse, x, r, d })
-    }
-
-    /// r −= A d
-    #[inline(never)]
-    pub(super) fn subtract_product(&mut self) {
-        let (r, d) = (&mut self.r, &self.d);
-        for (i, mass) in self.mass.as_chunks::<WIDTH>().0.iter().enumerate() {
-            let i = WIDTH * i;
-            let [x, y, z] = d.load(i);
-            r.store(i, sub3(r.load(i), [mul(*mass, x), mul(*mass, y), mul(*mass, z)]));
-        }
-        let Extent { run_tiles, .. } = self.pattern.size.extent;
-        let (tiled, loose) = self.blocks.split_at_checked(TILE * run_tiles).unwrap_or_default();
-        let mut tiles = tiled.as_chunks::<TILE>().0.iter();
-        for [first, offset, count] in self.pattern.runs.as_chunks::<3>().0 {
-            let mut a = *first as usize;
-            let mut b = a + *offset as usize;
-            for tile in tiles.by_ref().take(*count as usize) {
-                let force = symmetric(blocks(tile), sub3(d.load(a), d.load(b)));
-                r.store(a, sub3(r.load(a), force));
-                r.store(b, add3(r.load(b), force));
-                (a, b) = (a + WIDTH, b + WIDTH);
-            }
-        }
-        self.pattern.each_loose_tile(loose, |tile, a, b| {
-            let mut apart = [[0.0; WIDTH]; 3];
-            for (k, (a, b)) in a.iter().zip(b).enumerate() {
-                let (at_a, at_b) = (d.at(*a as usize), d.at(*b as usize));
-                for (apart, (a, b)) in apart.iter_mut().zip(at_a.into_iter().zip(at_b)) {
-                    if let Some(apart) = apart.get_mut(k) {
-                        *apart = a - b;
-                    }
-                }
-            }
-            let [x, y, z] = symmetric(blocks(tile), apart);
-            for ((a, b), ((x, y), z)) in a.iter().zip(b).zip(x.into_iter().zip(y).zip(z)) {
-                r.add(*a as usize, [-x, -y, -z]);
-                r.add(*b as usize, [x, y, z]);
-            }
-        });
-        for row in self.pattern.held_rows.iter().take(self.held_count) {
-            let row = *row as usize;
-            let held = self.held.get(row).copied().unwrap_or_default();
-            let [x, y, z] = crate::sym3::Sym3(held).mul(d.at(row));
-            r.add(row, [-x, -y, -z]);
-        }
-    }
-
-    /// d = a d + c D⁻¹ r; x += d.
-    #[inline(never)]
-    pub(super) fn smooth(&mut self, a: f32, c: f32) {
-        let inverse = &self.inverse;
-        let (a, c) = ([a; WIDTH], [c; WIDTH]);
-        let mut i = 0;
-        while i < self.mass.len() {
-            let [xx, yy, zz, xy, xz, yz] = inverse;
-            let d_inverse = [load(xx, i), load(yy, i), load(zz, i), load(xy, i), load(xz, i), load(yz, i)];
-            let [zx, zy, zz] = symmetric(d_inverse, self.r.load(i));
-            let [dx, dy, dz] = self.d.load(i);
-            let scaled = [mul(a, dx), mul(a, dy), mul(a, dz)];
-            let d = add3(scaled, [mul(c, zx), mul(c, zy), mul(c, zz)]);
-            self.d.store(i, d);
-            self.x.store(i, add3(self.x.load(i), d));
-            i += WIDTH;
-        }
     }
 }
 

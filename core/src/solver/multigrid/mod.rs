@@ -13,6 +13,7 @@ mod dense;
 mod galerkin;
 mod level;
 mod matching;
+mod relax;
 mod runs;
 mod tile;
 mod words;
@@ -164,7 +165,6 @@ impl<T: Real> Preconditioner<T> for Cycle<'_, T> {
         let ready = most > T::ZERO && down.is_finite();
         match hierarchy.levels.first_mut() {
             Some(Some(finest)) if ready => {
-                finest.x.clear();
                 let [x, y, z] = &mut finest.r.0;
                 for (((x, y), z), r) in x.iter_mut().zip(y.iter_mut()).zip(z.iter_mut()).zip(r) {
                     [*x, *y, *z] = vec3::scale(down, *r).map(|r| r.to_f64() as f32);

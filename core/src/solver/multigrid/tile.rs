@@ -107,6 +107,15 @@ impl Planes<'_> {
         }
     }
 
+    #[inline(always)]
+    pub(super) fn set(&mut self, i: usize, v: [f32; 3]) {
+        for (plane, v) in self.0.iter_mut().zip(v) {
+            if let Some(place) = plane.get_mut(i) {
+                *place = v;
+            }
+        }
+    }
+
     pub(super) fn clear(&mut self) {
         for plane in &mut self.0 {
             plane.fill(0.0);
