@@ -6,14 +6,16 @@
 //! The order of the sums (it makes the bits): held blocks, loose edges, then block by block masses and runs, by offset.
 
 use super::level::{Level, TILE, blocks};
-use super::runs::Run;
-use super::tile::{Planes, Tile, Tile3, WIDTH, add3, load, mul, sub3, symmetric};
+use super::tile::{Planes, Tile, Tile3, WIDTH, add3, mul, sub3, symmetric};
 use crate::sym3::Sym3;
 
 /// Rows of a block ...
 const BLOCK: usize = 128;
 /// ... unless there are more runs than this; each is looked at once per block.
 const FEW: usize = 24;
+
+/// Tiles of a run whose ends overlap that are done at a time.
+const WAITING: usize = 8;
 
 /// A step of smoothing: d = a d + c D⁻¹r.
 pub(super) type Step = (f32, f32);
@@ -102,8 +104,6 @@ impl Level<'_> {
             let tiles = run.get(begin..stop).unwrap_or_default();
             let a = from + WIDTH * begin;
             if tiles.is_empty() {
-            } else if offset == 1 {
-                neighbours(tiles, a, &self.d, &mut self.r);
             } else if offset < WIDTH {
                 near(tiles, a, offset, &self.d, &mut self.r);
             } else {
@@ -165,40 +165,27 @@ fn far(tiles: &[[f32; TILE]], a: usize, offset: usize, d: &Planes<'_>, r: &mut P
     }
 }
 
-/// The rows overlap.
-#[inline(always)]
+/// The rows overlap: what the upper ends get waits until the lower ends have theirs. (A load that overlaps the stores just
+/// before it would wait for them.)
+#[inline(never)]
 fn near(tiles: &[[f32; TILE]], mut a: usize, offset: usize, d: &Planes<'_>, r: &mut Planes<'_>) {
-    for tile in tiles {
-        let b = a + offset;
-        let force = symmetric(blocks(tile), sub3(d.load(a), d.load(b)));
-        r.store(a, sub3(r.load(a), force));
-        r.store(b, add3(r.load(b), force));
-        a += WIDTH;
+    for tiles in tiles.chunks(WAITING) {
+        let n = tiles.len();
+        let mut waiting = [[[0.0; WIDTH]; 3]; WAITING];
+        let d = columns(d.tiles(a, n)).zip(columns(d.tiles(a + offset, n)));
+        let lower = columns_mut(r.tiles_mut(a, n));
+        for ((tile, (da, db)), (r, waiting)) in tiles.iter().zip(d).zip(lower.zip(&mut waiting)) {
+            let force = symmetric(blocks(tile), sub3(da, db));
+            let left = sub3(take3(&r), force);
+            put(r, left);
+            *waiting = force;
+        }
+        for (r, waiting) in columns_mut(r.tiles_mut(a + offset, n)).zip(&waiting) {
+            let sum = add3(take3(&r), *waiting);
+            put(r, sum);
+        }
+        a += WIDTH * n;
     }
-}
-
-/// Each row with the next: what the upper end gets is handed on by one lane, so that r is met once. (Loads that overlap
-/// the stores just before them would wait for these.)
-#[inline(always)]
-fn neighbours(tiles: &[[f32; TILE]], mut a: usize, d: &Planes<'_>, r: &mut Planes<'_>) {
-    let mut carry = [0.0; 3];
-    for tile in tiles {
-        let force = symmetric(blocks(tile), sub3(d.load(a), d.load(a + 1)));
-        let ([sx, sy, sz], [x, y, z]) = (force, carry);
-        let ([sx, cx], [sy, cy], [sz, cz]) = (hand_on(sx, x), hand_on(sy, y), hand_on(sz, z));
-        r.store(a, add3(sub3(r.load(a), force), [sx, sy, sz]));
-        let last = |tile: Tile| { let [.., last] = tile; last };
-        carry = [last(cx), last(cy), last(cz)];
-        a += WIDTH;
-    }
-    r.add(a, carry);
-}
-
-/// A tile moved up by one lane, and itself.
-#[inline(always)]
-fn hand_on(tile: Tile, before: f32) -> [Tile; 2] {
-    let [a, b, c, d, e, f, g, _] = tile;
-    [[before, a, b, c, d, e, f, g], tile]
 }
 
 /// `n` tiles of a plane from row i on.
