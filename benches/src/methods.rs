@@ -4,7 +4,9 @@
 use std::time::Duration;
 
 use cpu_time::ThreadTime;
-use hooke::{BandedLdl, Force, Integrator, SceneIn, StepError};
+use hooke::{BandedLdl, Force, Integrator, SceneIn, SparseLdl, StepError, WideJacobi};
+use hooke_harness::host::Host;
+use hooke_harness::run::solver::minimum_degree;
 
 use crate::scenario::{Euler, HostScene};
 
@@ -42,6 +44,16 @@ pub(crate) fn methods<F: Force<f64> + Clone>() -> Vec<Method<F>> {
             workspace: scene_bytes,
         },
         Method {
+            name: "hooke wide PCG",
+            make: |euler, r| {
+                growing(move |numbers, words| {
+                    let solver = WideJacobi::new(vec![0.0; numbers], vec![0; words], Host::new());
+                    Box::new(Timed(euler.clone().tolerance(r).max_iterations(MOST_ITERATIONS).solver(solver)))
+                })
+            },
+            workspace: scene_bytes,
+        },
+        Method {
             name: "hooke banded LDL",
             make: |euler, r| {
                 growing(move |numbers, _| {
@@ -49,6 +61,11 @@ pub(crate) fn methods<F: Force<f64> + Clone>() -> Vec<Method<F>> {
                     Box::new(Timed(euler.clone().tolerance(r).solver(solver)))
                 })
             },
+            workspace: scene_bytes,
+        },
+        Method {
+            name: "hooke sparse LDL",
+            make: |euler, r| Box::new(Ordered { euler, r, solver: None }),
             workspace: scene_bytes,
         },
     ]
@@ -99,5 +116,31 @@ impl Step for Growing<'_> {
                 other => return other,
             }
         }
+    }
+}
+
+/// The sparse solver in an approximate minimum degree order, which it asks the first scene for, untimed.
+struct Ordered<'e, F> {
+    euler: &'e Euler<F>,
+    r: f64,
+    solver: Option<Box<dyn Step + 'e>>,
+}
+
+impl<F: Force<f64> + Clone> Step for Ordered<'_, F> {
+    fn step(&mut self, scene: &mut HostScene) -> Result<Stepped, StepError> {
+        let (euler, r) = (self.euler, self.r);
+        let solver = self.solver.get_or_insert_with(|| {
+            let state = scene.state();
+            let pinned: Vec<bool> = (0..scene.positions().len()).map(|i| scene.is_pinned(i)).collect();
+            let order = minimum_degree(
+                &pinned,
+                (0..state.springs()).filter_map(|j| state.ends(j).map(|(a, b)| [a, b])),
+            );
+            growing(move |numbers, words| {
+                let solver = SparseLdl::new(order.clone(), vec![0.0; numbers], vec![0; words]);
+                Box::new(Timed(euler.clone().tolerance(r).solver(solver)))
+            })
+        });
+        solver.step(scene)
     }
 }

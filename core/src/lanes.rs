@@ -17,6 +17,14 @@ impl<T: Real> Lanes<T> {
         Self([T::ZERO; LANES])
     }
 
+    /// Adds eight terms at once: of items 8k … 8k + 7.
+    #[inline(always)]
+    pub(crate) fn add_lane(&mut self, terms: [T; LANES]) {
+        for (lane, term) in self.0.iter_mut().zip(&terms) {
+            *lane += *term;
+        }
+    }
+
     /// Adds `term` of item `i`.
     #[inline(always)]
     pub(crate) fn add(&mut self, i: usize, term: T) {

@@ -36,6 +36,7 @@ mod report;
 mod scene;
 mod snapshot;
 pub mod solver;
+mod wide;
 
 pub use energy::Energies;
 pub use error::{EditError, StepError};
@@ -56,3 +57,4 @@ pub use spring::{Spring, Stretched};
 pub use sym3::Sym3;
 pub use system::{Operator, System};
 pub use vec3::Vec3;
+pub use wide::{Dispatch, Portable, WideJacobi};

@@ -33,6 +33,9 @@ pub trait Real:
 {
     /// 0
     const ZERO: Self;
+    /// A tile of zeros.
+    #[doc(hidden)]
+    const ZEROS: &'static [Self; 32];
     /// ½
     const HALF: Self;
     /// 1
@@ -90,6 +93,7 @@ macro_rules! real {
     ($t:ty, $sqrt:path, $tolerance:expr) => {
         impl Real for $t {
             const ZERO: Self = 0.0;
+            const ZEROS: &'static [Self; 32] = &[0.0; 32];
             const HALF: Self = 0.5;
             const ONE: Self = 1.0;
             const TWO: Self = 2.0;

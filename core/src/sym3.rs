@@ -58,23 +58,32 @@ impl<T: Real> Sym3<T> {
     /// The inverse through L Δ Lᵀ, or `None` where rounding leaves a pivot that is not positive.
     #[inline]
     pub fn inverse(&self) -> Option<Self> {
+        let (inverse, pivots) = self.inverse_and_pivots();
+        pivots.iter().all(|pivot| *pivot > T::ZERO).then_some(inverse)
+    }
+
+    /// The same without a branch, and the pivots: the inverse holds where all three are positive.
+    #[inline(always)]
+    pub(crate) fn inverse_and_pivots(&self) -> (Self, [T; 3]) {
         let [xx, yy, zz, xy, xz, yz] = self.0;
-        let positive = |pivot: T| (pivot > T::ZERO).then_some(T::ONE / pivot);
-        let i1 = positive(xx)?;
+        let i1 = T::ONE / xx;
         let (l21, l31) = (xy * i1, xz * i1);
-        let i2 = positive(yy - l21 * xy)?;
+        let p2 = yy - l21 * xy;
+        let i2 = T::ONE / p2;
         let s32 = yz - l31 * xy;
         let l32 = s32 * i2;
-        let i3 = positive((zz - l31 * xz) - l32 * s32)?;
+        let p3 = (zz - l31 * xz) - l32 * s32;
+        let i3 = T::ONE / p3;
         // L⁻¹ = [1; −l21 1; m31 −l32 1], so D⁻¹ = Σ_k i_k ρ_k ρ_kᵀ over its rows ρ_k.
         let m31 = l21 * l32 - l31;
-        Some(Self([
+        let inverse = Self([
             (i1 + i2 * (l21 * l21)) + i3 * (m31 * m31),
             i2 + i3 * (l32 * l32),
             i3,
             -(i2 * l21) - i3 * (m31 * l32),
             i3 * m31,
             -(i3 * l32),
-        ]))
+        ]);
+        (inverse, [xx, p2, p3])
     }
 }

@@ -3,6 +3,7 @@
 pub mod cli;
 pub mod error;
 pub mod heap;
+pub mod host;
 pub mod mesh;
 pub mod nearest;
 pub mod output;

@@ -215,6 +215,16 @@ fn time_and_method_options_take_effect() {
     assert!(iterations("--tolerance 1e-10") > iterations("--tolerance 1e-2"));
     assert!(iterations("--absolute 1e-3") < iterations(""));
     assert!(iterations("--max-iterations 3") <= Some(15));
+    let bytes = |solver: &str| {
+        let f = figures(&format!("cloth:8 --steps 5 --solver {solver}"));
+        // One solve a step where a solver is direct.
+        assert_eq!(
+            (f["iterations"].as_u64() == Some(5), f["fallback_steps"].as_u64()),
+            (solver != "jacobi", Some(0))
+        );
+        f["workspace_bytes"].as_u64()
+    };
+    assert!(bytes("jacobi") < bytes("ldl") && bytes("jacobi") < bytes("banded"));
     let folder = Scratch::new();
     folder.ok("run cloth:4 --seconds 1 --fps 5 --out o");
     assert_eq!(folder.names().iter().filter(|name| name.ends_with(".vtp")).count(), 6);
@@ -317,6 +327,7 @@ fn bad_options_and_names_are_refused() {
         ("run cloth:4 --velocity a,b,c", vec!["'a' is not a finite number"]),
         ("run cloth:4 --integrator eulr", vec!["'eulr'", "'euler'"]),
         ("run cloth:4 --solver jacob", vec!["'jacob'", "'jacobi'"]),
+        ("run cloth:4 --solver bandet", vec!["'bandet'", "'banded'"]),
         ("run cloth:4 --precision f16", vec!["f16", "f32"]),
         ("run cloth:4 --stepz 3", vec!["--stepz", "'--steps'"]),
         ("run cloth:4 --fsp 3", vec!["--fsp", "'--fps'"]),

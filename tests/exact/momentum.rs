@@ -1,11 +1,11 @@
 //! Linear momentum of what nothing holds.
 
-use hooke::{LinearlyImplicitEuler, Real, SpringDamping};
+use hooke::{BlockJacobi, LinearlyImplicitEuler, Real, Solver, SpringDamping};
 use hooke_tests::data::SceneData;
 use hooke_tests::generate::{self, Ingredients};
 use hooke_tests::random::Random;
 use hooke_tests::vec_memory::VecScene;
-use hooke_tests::{allowed, build};
+use hooke_tests::{allowed, build, direct};
 
 /// Σ m v in f64, and Σ m|v| (what rounding is relative to).
 fn momentum<T: Real>(scene: &VecScene<T>) -> ([f64; 3], f64) {
@@ -25,14 +25,15 @@ fn free_network(seed: u64) -> SceneData {
 }
 
 /// Every step of every network with this many iterations at most; every change of momentum against its rounding.
-fn kept<T: Real>(max_iterations: u32, unit: f64) {
+fn kept<T: Real, S: Solver<T>>(max_iterations: u32, unit: f64, solver: impl Fn(&SceneData) -> S) {
     let mut largest: f64 = 0.0;
     for seed in 0..30 {
         let data = free_network(seed);
         let mut scene = build::scene::<T>(&data);
         let mut euler = LinearlyImplicitEuler::new(T::from_f64(1.0 / 60.0))
             .with(SpringDamping(T::from_f64(0.1)))
-            .max_iterations(max_iterations);
+            .max_iterations(max_iterations)
+            .solver(solver(&data));
         for step in 0..10 {
             let (before, size) = momentum(&scene);
             let impulses = build::impulses(&scene, 1.0 / 60.0, 0.1);
@@ -51,15 +52,23 @@ fn kept<T: Real>(max_iterations: u32, unit: f64) {
 
 #[test]
 fn momentum_of_a_free_island_is_kept_to_rounding() {
-    kept::<f64>(10_000, allowed::U64);
-    kept::<f32>(10_000, allowed::U32);
+    kept::<f64, _>(10_000, allowed::U64, |_| BlockJacobi);
+    kept::<f32, _>(10_000, allowed::U32, |_| BlockJacobi);
+}
+
+#[test]
+fn momentum_of_a_free_island_is_kept_to_rounding_by_direct_solvers() {
+    kept::<f64, _>(10_000, allowed::U64, direct::banded);
+    kept::<f32, _>(10_000, allowed::U32, direct::banded);
+    kept::<f64, _>(10_000, allowed::U64, direct::sparse);
+    kept::<f32, _>(10_000, allowed::U32, direct::sparse);
 }
 
 #[test]
 fn momentum_of_a_free_island_is_kept_to_rounding_even_when_the_solve_is_cut_short() {
     for cut in [1, 2, 3, 7] {
-        kept::<f64>(cut, allowed::U64);
-        kept::<f32>(cut, allowed::U32);
+        kept::<f64, _>(cut, allowed::U64, |_| BlockJacobi);
+        kept::<f32, _>(cut, allowed::U32, |_| BlockJacobi);
     }
 }
 

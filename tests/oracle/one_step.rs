@@ -1,10 +1,11 @@
 //! One step against the dense solve, and against itself with the springs in another order: no further apart than the bounds
 //! and the stated rounding of assembly allow.
 
-use hooke::Real;
+use hooke::{BlockJacobi, Real, Solver};
 use hooke_tests::build::{self, Forces};
 use hooke_tests::data::{MotionData, SceneData, distance};
 use hooke_tests::dense::Dense;
+use hooke_tests::direct;
 use hooke_tests::generate::{self, Ingredients};
 use hooke_tests::random::Random;
 use hooke_tests::{allowed, textbook};
@@ -87,15 +88,21 @@ fn step<T: Real>(
     h: f64,
     relative: f64,
     motion: &[MotionData],
+    solver: impl Solver<T>,
 ) -> (Vec<[f64; 3]>, f64, u32) {
     let mut scene = build::scene::<T>(data);
     let mut forces = Forces::<T>::new(data);
-    let mut euler = forces.euler(T::from_f64(h)).tolerance(T::from_f64(relative));
+    let mut euler = forces.euler(T::from_f64(h)).tolerance(T::from_f64(relative)).solver(solver);
     let report = scene.step_moving(&mut euler, &build::motions(motion)).unwrap();
     (build::velocities(&scene), report.upper.to_f64(), report.clamped)
 }
 
-fn against_dense<T: Real>(relatives: &[f64], unit: f64, seed: u64) {
+fn against_dense<T: Real, S: Solver<T>>(
+    relatives: &[f64],
+    unit: f64,
+    seed: u64,
+    solver: impl Fn(&SceneData) -> S,
+) {
     let mut random = Random::new(Random::seed(seed));
     let (mut with_clamping, mut closest) = (0, f64::INFINITY);
     for case in 0..60 {
@@ -112,7 +119,7 @@ fn against_dense<T: Real>(relatives: &[f64], unit: f64, seed: u64) {
         let dense = Dense::new(&data);
         let (after, clamped) = dense.step(h, &motion);
         for relative in relatives {
-            let (velocity, upper, count) = step::<T>(&data, h, *relative, &motion);
+            let (velocity, upper, count) = step::<T>(&data, h, *relative, &motion, solver(&data));
             assert_eq!(count as usize, clamped, "case {case}");
             let off = apart(&dense, h, &motion, &velocity, &after.velocity);
             let rounding = assembly_rounding(&data, &after, h, &motion, unit);
@@ -133,12 +140,20 @@ fn against_dense<T: Real>(relatives: &[f64], unit: f64, seed: u64) {
 
 #[test]
 fn one_step_is_the_dense_solve_within_the_bound_in_f64() {
-    against_dense::<f64>(&[1e-1, 1e-3, 1e-6, 1e-8], allowed::U64, 1);
+    against_dense::<f64, _>(&[1e-1, 1e-3, 1e-6, 1e-8], allowed::U64, 1, |_| BlockJacobi);
 }
 
 #[test]
 fn one_step_is_the_dense_solve_within_the_bound_in_f32() {
-    against_dense::<f32>(&[1e-1, 1e-3, 1e-4], allowed::U32, 2);
+    against_dense::<f32, _>(&[1e-1, 1e-3, 1e-4], allowed::U32, 2, |_| BlockJacobi);
+}
+
+#[test]
+fn a_direct_step_is_the_dense_solve_within_the_bound_whatever_the_tolerance() {
+    against_dense::<f64, _>(&[1e-1, 1e-8, 1e-12], allowed::U64, 11, direct::banded);
+    against_dense::<f64, _>(&[1e-1, 1e-8, 1e-12], allowed::U64, 12, direct::sparse);
+    against_dense::<f32, _>(&[1e-1, 1e-4, 1e-12], allowed::U32, 13, direct::banded);
+    against_dense::<f32, _>(&[1e-1, 1e-4, 1e-12], allowed::U32, 14, direct::sparse);
 }
 
 #[test]
@@ -171,8 +186,8 @@ fn permuted<T: Real>(relatives: &[f64], unit: f64, seed: u64) {
         shuffled.springs =
             random.permutation(data.springs.len()).into_iter().map(|j| data.springs[j]).collect();
         for relative in relatives {
-            let (a, upper_a, clamped_a) = step::<T>(&data, h, *relative, &motion);
-            let (b, upper_b, clamped_b) = step::<T>(&shuffled, h, *relative, &motion);
+            let (a, upper_a, clamped_a) = step::<T>(&data, h, *relative, &motion, BlockJacobi);
+            let (b, upper_b, clamped_b) = step::<T>(&shuffled, h, *relative, &motion, BlockJacobi);
             assert_eq!(clamped_a, clamped_b);
             let dense = Dense::new(&data);
             let (after, _) = dense.step(h, &motion);

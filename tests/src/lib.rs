@@ -10,6 +10,7 @@ pub mod allowed;
 pub mod build;
 pub mod data;
 pub mod dense;
+pub mod direct;
 pub mod envelope;
 pub mod generate;
 pub mod precise;

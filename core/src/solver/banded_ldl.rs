@@ -4,10 +4,10 @@
 //! matrix each time, so a broken spring or a released pin needs no word). w = 1 goes the way of [`super::chain`]; else
 //! column after column, with 3×3 pivots Sₖ and no pivoting (A is positive definite):
 //!
-//! Lᵢₖ = Aᵢₖ Sₖ⁻¹,  Aᵢⱼ ← Aᵢⱼ − Lᵢₖ Aⱼₖᵀ for k < j ≤ i ≤ k + w.
+//! Wᵢₖ = Aᵢₖ = Lᵢₖ Sₖ,  Aᵢⱼ ← Aᵢⱼ − Wᵢₖ Lⱼₖᵀ for k < j ≤ i ≤ k + w.
 //!
 //! A block column is three columns of 3w numbers each, so that an update is a sum of three multiples of contiguous columns.
-//! Cost: 27 w² flops per row to factor, 36 w to solve. Memory: 9w numbers per row and 9w more; pivots lie in the scene's own.
+//! Cost: 27 w² flops per row to factor, 36 w to solve. Memory: 9w numbers per row; pivots lie in the scene's own.
 //! Exact up to rounding, which the certificate measures; see [`super::direct`] for refinement and what happens when a
 //! pivot fails.
 //!
@@ -22,6 +22,7 @@ use crate::report::Solve;
 use crate::scene::MassSpring;
 use crate::solver::chain;
 use crate::solver::direct::{self, Factors};
+use crate::solver::panel::{Block, below, divided, first, subtract, three, three_mut};
 use crate::solver::pivot::inverse;
 use crate::solver::{Problem, Solver, Stop};
 use crate::sym3::Sym3;
@@ -57,7 +58,7 @@ impl BandedLdl<()> {
     /// How many numbers an island of so many free particles needs, none tied to one more than `half_bandwidth` rows
     /// away. Islands share the workspace: the largest need counts.
     pub const fn needs(particles: usize, half_bandwidth: usize) -> usize {
-        particles.saturating_add(1).saturating_mul(half_bandwidth).saturating_mul(9)
+        particles.saturating_mul(half_bandwidth).saturating_mul(9)
     }
 
     /// How many numbers a scene needs as its pins and springs are now.
@@ -110,8 +111,7 @@ impl<T: Real, B: AsMut<[T]>> Solver<T> for BandedLdl<B> {
         Ok(if width <= 1 {
             direct::solve(problem, stop, &mut Chain { towards: workspace.as_chunks_mut().0 })
         } else {
-            let (copy, columns) = workspace.split_at_mut(9 * width);
-            direct::solve(problem, stop, &mut Band { width, copy, columns })
+            direct::solve(problem, stop, &mut Band { width, columns: workspace })
         })
     }
 }
@@ -133,47 +133,24 @@ impl<T: Real> Factors<T> for Chain<'_, T> {
 /// w > 1
 struct Band<'a, T> {
     width: usize,
-    /// One block column before it was scaled
-    copy: &'a mut [T],
     /// The block columns below the diagonal, 9w numbers each
     columns: &'a mut [T],
 }
 
-/// The three columns of a block column.
-#[inline(always)]
-fn three<T>(column: &[T]) -> Option<[&[T]; 3]> {
-    let third = column.len() / 3;
-    let (a, rest) = column.split_at_checked(third)?;
-    let (b, c) = rest.split_at_checked(third)?;
-    Some([a, b, c])
-}
-
-/// As [`three`], mutable.
-#[inline(always)]
-fn three_mut<T>(column: &mut [T]) -> Option<[&mut [T]; 3]> {
-    let third = column.len() / 3;
-    let (a, rest) = column.split_at_mut_checked(third)?;
-    let (b, c) = rest.split_at_mut_checked(third)?;
-    Some([a, b, c])
-}
-
-/// y −= a s₀ + b s₁ + c s₂
-#[inline(always)]
-fn subtract<T: Real>(y: &mut [T], [a, b, c]: [&[T]; 3], s: Vec3<T>) {
-    for (((y, a), b), c) in y.iter_mut().zip(a).zip(b).zip(c) {
-        *y -= (*a * s[0] + *b * s[1]) + *c * s[2];
-    }
-}
-
 impl<T: Real> Band<'_, T> {
+    /// Numbers of a block column; not 0, so that a slice can be cut into such.
+    fn length(&self) -> usize {
+        (9 * self.width).max(1)
+    }
+
     /// A below its diagonal, by columns.
     fn assemble<F: Force<T>>(&mut self, system: &System<'_, T, F>) {
-        let (width, rows) = (self.width, system.particles());
+        let (length, rows) = (self.length(), system.particles());
         for number in self.columns.iter_mut() {
             *number = T::ZERO;
         }
         system.each_spring(|row, other, h| {
-            let column = self.columns.chunks_exact_mut(9 * width).nth(row).and_then(three_mut);
+            let column = self.columns.chunks_exact_mut(length).nth(row).and_then(three_mut);
             let (Some(column), true) = (column, other < rows) else { return };
             let from = 3 * (other.saturating_sub(row).saturating_sub(1));
             for (column, block) in column.into_iter().zip(h.dense()) {
@@ -190,18 +167,22 @@ impl<T: Real> Factors<T> for Band<'_, T> {
     fn factor<F: Force<T>>(&mut self, system: &System<'_, T, F>, pivots: &mut [[T; 6]]) -> bool {
         system.diagonal(pivots);
         self.assemble(system);
-        let length = 9 * self.width;
+        let length = self.length();
         let (mut pivots, mut columns): (&mut [[T; 6]], &mut [T]) = (pivots, self.columns);
         loop {
             let Some((pivot, later)) = pivots.split_first_mut() else { return true };
             let Some((column, rest)) = columns.split_at_mut_checked(length) else { return true };
             let Some(inverted) = inverse(Sym3(*pivot)) else { return false };
             *pivot = inverted.0;
-            scale(column, self.copy, &inverted);
-            let (Some(l), Some(a)) = (three(column), three(self.copy)) else { return false };
+            let Some(w) = three(column) else { return false };
             let targets = later.iter_mut().zip(rest.chunks_exact_mut(length));
             for (t, (pivot, target)) in targets.enumerate().take(self.width) {
-                update(t, pivot, target, l, a);
+                let block = first(below(w, t));
+                let l = divided(block, &inverted);
+                take_from(pivot, &block, &l);
+                if let Some(target) = three_mut(target) {
+                    subtract(target, below(w, t + 1), &l);
+                }
             }
             (pivots, columns) = (later, rest);
         }
@@ -209,64 +190,49 @@ impl<T: Real> Factors<T> for Band<'_, T> {
 
     #[inline(never)]
     fn solve(&mut self, pivots: &[[T; 6]], x: &mut [Vec3<T>]) {
-        let length = 9 * self.width;
+        let length = self.length();
         let mut rest = &mut *x;
         for (column, pivot) in self.columns.chunks_exact(length).zip(pivots) {
-            let (Some((first, below)), Some(l)) = (rest.split_first_mut(), three(column)) else { break };
-            subtract(below.as_flattened_mut(), l, *first);
-            *first = Sym3(*pivot).mul(*first);
+            let (Some((first, below)), Some([a, b, c])) = (rest.split_first_mut(), three(column)) else {
+                break;
+            };
+            let v = Sym3(*pivot).mul(*first);
+            for (((y, a), b), c) in below.as_flattened_mut().iter_mut().zip(a).zip(b).zip(c) {
+                *y -= (*a * v[0] + *b * v[1]) + *c * v[2];
+            }
             rest = below;
         }
         let mut end = x.len();
-        for column in self.columns.chunks_exact(length).rev() {
+        for (column, pivot) in self.columns.chunks_exact(length).zip(pivots).rev() {
             end = end.saturating_sub(1);
-            let (Some((_, from)), Some(l)) = (x.split_at_mut_checked(end), three(column)) else { break };
+            let (Some((_, from)), Some(w)) = (x.split_at_mut_checked(end), three(column)) else { break };
             let Some((first, below)) = from.split_first_mut() else { break };
-            let below = below.as_flattened();
-            *first =
-                [first[0] - inner(l[0], below), first[1] - inner(l[1], below), first[2] - inner(l[2], below)];
+            let sums = w.map(|column| inner(column, below));
+            *first = Sym3(*pivot).mul(vec3::sub(*first, sums));
         }
     }
 }
 
-/// L = A S⁻¹ of one block column in place; A goes to `copy`.
-fn scale<T: Real>(column: &mut [T], copy: &mut [T], inverted: &Sym3<T>) {
-    if let (Some([a, b, c]), Some([x, y, z])) = (three_mut(column), three_mut(copy)) {
-        let (old, new) = (x.iter_mut().zip(y).zip(z), a.iter_mut().zip(b).zip(c));
-        for (((x, y), z), ((a, b), c)) in old.zip(new) {
-            (*x, *y, *z) = (*a, *b, *c);
-            [*a, *b, *c] = inverted.mul([*a, *b, *c]);
-        }
-    }
-}
-
-/// What an eliminated column, L and A below its pivot, does to the column that belongs to its block t.
+/// S −= W Lᵀ, a symmetric product of two blocks.
 #[inline(always)]
-fn update<T: Real>(t: usize, pivot: &mut [T; 6], target: &mut [T], l: [&[T]; 3], a: [&[T]; 3]) {
-    let row = |of: [&[T]; 3], c: usize| of.map(|column| column.get(3 * t + c).copied().unwrap_or(T::ZERO));
-    let (ax, ay, az) = (row(a, 0), row(a, 1), row(a, 2));
-    let (lx, ly, lz) = (row(l, 0), row(l, 1), row(l, 2));
+fn take_from<T: Real>(pivot: &mut [T; 6], w: &Block<T>, l: &Block<T>) {
     let [xx, yy, zz, xy, xz, yz] = *pivot;
     *pivot = [
-        xx - vec3::dot(lx, ax),
-        yy - vec3::dot(ly, ay),
-        zz - vec3::dot(lz, az),
-        xy - vec3::dot(ly, ax),
-        xz - vec3::dot(lz, ax),
-        yz - vec3::dot(lz, ay),
+        xx - vec3::dot(w[0], l[0]),
+        yy - vec3::dot(w[1], l[1]),
+        zz - vec3::dot(w[2], l[2]),
+        xy - vec3::dot(w[1], l[0]),
+        xz - vec3::dot(w[2], l[0]),
+        yz - vec3::dot(w[2], l[1]),
     ];
-    let below = l.map(|column| column.get(3 * t + 3..).unwrap_or_default());
-    for (column, s) in three_mut(target).into_iter().flatten().zip([ax, ay, az]) {
-        subtract(column, below, s);
-    }
 }
 
-/// lᵀx, with one sum for each component of a row.
+/// wᵀx, with one sum for each component of a row.
 #[inline(always)]
-fn inner<T: Real>(l: &[T], x: &[T]) -> T {
+fn inner<T: Real>(w: &[T], x: &[Vec3<T>]) -> T {
     let mut sum = [T::ZERO; 3];
-    for (l, x) in l.as_chunks::<3>().0.iter().zip(x.as_chunks::<3>().0) {
-        sum = [sum[0] + l[0] * x[0], sum[1] + l[1] * x[1], sum[2] + l[2] * x[2]];
+    for (w, x) in w.as_chunks::<3>().0.iter().zip(x) {
+        sum = [sum[0] + w[0] * x[0], sum[1] + w[1] * x[1], sum[2] + w[2] * x[2]];
     }
     (sum[0] + sum[1]) + sum[2]
 }

@@ -78,24 +78,38 @@ fn minus<T: Real>(a: Sym3<T>, b: Sym3<T>) -> Sym3<T> {
 }
 
 /// One row: S = A − what its neighbour leaves, S⁻¹ and G = S⁻¹C in place. Answers C S⁻¹ C, what it leaves to the next.
+///
+/// S = [x cᵀ; c B] as in [`super::pivot`], C's rows cₓ and Y, N = Y − (c/x) cₓᵀ (2×3): C S⁻¹ C = cₓcₓᵀ/x + Nᵀ Σ⁻¹ N, and all
+/// but the last product with 1/det Σ is done while that division runs.
 #[inline(always)]
 fn eliminate<T: Real>(pivot: &mut [T; 6], g: &mut Towards<T>, before: Sym3<T>, sound: &mut bool) -> Sym3<T> {
     let [xx, yy, zz, xy, xz, yz, ..] = *g;
-    let inverted = inverse(minus(Sym3(*pivot), before));
-    *sound &= inverted.is_some();
-    let inverted = inverted.unwrap_or(Sym3([T::ZERO; 6]));
-    *pivot = inverted.0;
-    let columns = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
-    let [x, y, z] = [inverted.mul(columns[0]), inverted.mul(columns[1]), inverted.mul(columns[2])];
-    *g = [x[0], x[1], x[2], y[0], y[1], y[2], z[0], z[1], z[2]];
-    Sym3([
-        vec3::dot(columns[0], x),
-        vec3::dot(columns[1], y),
-        vec3::dot(columns[2], z),
-        vec3::dot(columns[0], y),
-        vec3::dot(columns[0], z),
-        vec3::dot(columns[1], z),
-    ])
+    let (c_x, c_y, c_z) = ([xx, xy, xz], [xy, yy, yz], [xz, yz, zz]);
+    let [xx, yy, zz, xy, xz, yz] = minus(Sym3(*pivot), before).0;
+    let first = T::ONE / xx;
+    let (l_y, l_z) = (xy * first, xz * first);
+    let (s_yy, s_zz, s_yz) = (yy - l_y * xy, zz - l_z * xz, yz - l_y * xz);
+    let determinant = s_yy * s_zz - s_yz * s_yz;
+    let second = T::ONE / determinant;
+    *sound &= (xx > T::ZERO) & (s_yy > T::ZERO) & (determinant >= T::MIN_POSITIVE);
+
+    let (n_y, n_z) = (vec3::add_scaled(c_y, -l_y, c_x), vec3::add_scaled(c_z, -l_z, c_x));
+    let a_y = vec3::sub(vec3::scale(s_zz, n_y), vec3::scale(s_yz, n_z));
+    let a_z = vec3::sub(vec3::scale(s_yy, n_z), vec3::scale(s_yz, n_y));
+    let f = vec3::scale(first, c_x);
+    let left = |i: usize, j: usize| {
+        let at = |v: Vec3<T>, i: usize| v.get(i).copied().unwrap_or(T::ZERO);
+        at(f, i) * at(c_x, j) + second * (at(n_y, i) * at(a_y, j) + at(n_z, i) * at(a_z, j))
+    };
+    let left = [left(0, 0), left(1, 1), left(2, 2), left(0, 1), left(0, 2), left(1, 2)];
+
+    let (g_y, g_z) = (vec3::scale(second, a_y), vec3::scale(second, a_z));
+    let g_x = vec3::add_scaled(vec3::add_scaled(f, -l_y, g_y), -l_z, g_z);
+    *g = [g_x[0], g_y[0], g_z[0], g_x[1], g_y[1], g_z[1], g_x[2], g_y[2], g_z[2]];
+    let (i_yy, i_zz, i_yz) = (s_zz * second, s_yy * second, -(s_yz * second));
+    let (m_y, m_z) = (i_yy * l_y + i_yz * l_z, i_yz * l_y + i_zz * l_z);
+    *pivot = [first + (l_y * m_y + l_z * m_z), i_yy, i_zz, -m_y, -m_z, i_yz];
+    Sym3(left)
 }
 
 /// x ← A⁻¹ x

@@ -311,50 +311,62 @@ impl Work<'_> {
         self.walk(row, |_, k, count, _| set(count, k, get(count, k) + 1));
     }
 
-    /// Does column k > 0 continue the supernode of k − 1?
+    /// Does column k have the structure of the column before it? (To join columns that nearly do costs more in zeros than
+    /// longer panels give back: measured on cloths.)
     fn continues(&self, k: usize) -> bool {
-        k > 0 && get(self.parent, k - 1) == k && get(self.count, k - 1) == get(self.count, k) + 1
+        get(self.parent, k.saturating_sub(1)) == k
+            && get(self.count, k.saturating_sub(1)) == get(self.count, k) + 1
+    }
+
+    /// Visits the supernodes: (first column, end, rows).
+    fn each_supernode(&self, mut visit: impl FnMut(usize, usize, usize)) {
+        let (mut first, columns) = (0, self.count.len());
+        for end in 1..=columns {
+            if end == columns || !self.continues(end) {
+                visit(first, end, end - first + get(self.count, end - 1).saturating_sub(1));
+                first = end;
+            }
+        }
     }
 
     fn sizes(&self, edges: usize) -> Sizes {
         let rows = self.count.len();
         let mut sizes = Sizes { rows, edges, supers: 0, listed: 0, panels: 0, longest: 0 };
-        let mut length = 0;
-        for k in 0..rows {
-            if !self.continues(k) {
-                length = get(self.count, k);
-                sizes.supers += 1;
-                sizes.listed += length;
-                sizes.longest = if length > sizes.longest { length } else { sizes.longest };
-            }
-            sizes.panels += 9 * length;
-        }
+        self.each_supernode(|first, end, length| {
+            sizes.supers += 1;
+            sizes.listed += length;
+            sizes.panels += 9 * length * (end - first);
+            sizes.longest = if length > sizes.longest { length } else { sizes.longest };
+        });
         sizes
     }
 
-    /// The supernodes and their rows.
+    /// The supernodes and their rows: their own columns, and what the last of these has below it.
     fn gather(&mut self, lists: &mut Lists<&mut [u32]>) {
         let Lists { row, of, first, from, panel, list, .. } = lists;
-        let (mut s, mut length, mut listed, mut numbers) = (0, 0, 0, 0);
-        for k in 0..row.len() {
-            if !self.continues(k) {
-                length = get(self.count, k);
-                set(first, s, k);
-                set(from, s, listed);
-                set(panel, s, numbers);
-                set(self.head, s, listed);
-                listed += length;
-                s += 1;
+        let (mut s, mut listed, mut numbers) = (0, 0, 0);
+        self.each_supernode(|begin, end, length| {
+            set(first, s, begin);
+            set(from, s, listed);
+            set(panel, s, numbers);
+            for (at, k) in (begin..end).enumerate() {
+                set(of, k, s);
+                set(list, listed + at, k);
             }
-            set(of, k, s - 1);
-            numbers += 9 * length;
-        }
+            s += 1;
+            listed += length;
+            numbers += 9 * length * (end - begin);
+        });
         set(first, s, row.len());
         set(from, s, listed);
         set(panel, s, numbers);
+        for s in 0..s {
+            let columns = get(first, s + 1) - get(first, s);
+            set(self.head, s, get(from, s) + columns);
+        }
         self.walk(row, |i, k, _, head| {
             let s = get(of, k);
-            if get(first, s) == k {
+            if i > k && get(first, s + 1) == k + 1 {
                 let place = get(head, s);
                 set(list, place, i);
                 set(head, s, place + 1);

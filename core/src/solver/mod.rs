@@ -50,3 +50,14 @@ pub trait Solver<T: Real> {
         stop: &Stop<T>,
     ) -> Result<Solve<T>, StepError>;
 }
+
+/// A solver that outlives the integrator which uses it: what it keeps between steps stays with it.
+impl<T: Real, S: Solver<T>> Solver<T> for &mut S {
+    fn solve<F: Force<T>>(
+        &mut self,
+        problem: Problem<'_, '_, T, F>,
+        stop: &Stop<T>,
+    ) -> Result<Solve<T>, StepError> {
+        (**self).solve(problem, stop)
+    }
+}

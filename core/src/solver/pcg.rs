@@ -52,10 +52,39 @@ impl<T: Real> Default for Stop<T> {
 /// Solves A x = b. On an island that nothing holds (`free`), the sum of the momentum equations is repaired at the start
 /// and at every check, so that momentum is kept to rounding even when iterations are cut short. Of the vectors b and μ
 /// come in; x and 1/μ go out.
-#[inline(never)] // Once a step and island: frames of their own keep the stack shallow.
+#[inline]
 pub(crate) fn solve<T: Real, F: Force<T>>(
     system: &System<'_, T, F>,
     preconditioner: &impl Preconditioner<T>,
+    v: &mut Vectors<'_, T>,
+    stop: &Stop<T>,
+    free: bool,
+) -> Solve<T> {
+    solve_by(system, &mut Plain(preconditioner), v, stop, free)
+}
+
+/// What is done between two checks; everything else of a solve is the same however the iterations are made.
+pub(crate) trait Iteration<T: Real> {
+    /// Iterates from x and r until β ≤ target or the number of iterations is used up; answers whether it broke down
+    /// (pᵀAp ≤ 0 or NaN).
+    fn iterate<F: Force<T>>(
+        &mut self,
+        system: &System<'_, T, F>,
+        v: &mut Vectors<'_, T>,
+        target: T,
+        max_iterations: u32,
+        iterations: &mut u32,
+    ) -> bool;
+
+    /// z = D⁻¹ r into y.
+    fn precondition<F: Force<T>>(&mut self, system: &System<'_, T, F>, v: &mut Vectors<'_, T>);
+}
+
+/// As [`solve`], with the iterations made by `by`.
+#[inline(never)] // Once a step and island: frames of their own keep the stack shallow.
+pub(crate) fn solve_by<T: Real, F: Force<T>>(
+    system: &System<'_, T, F>,
+    by: &mut impl Iteration<T>,
     v: &mut Vectors<'_, T>,
     stop: &Stop<T>,
     free: bool,
@@ -88,7 +117,7 @@ pub(crate) fn solve<T: Real, F: Force<T>>(
         let blind = T::from_count(16) * T::UNIT_ROUNDOFF;
         let (target, before) = (larger(goal, blind * blind * from), iterations);
         if iterations < stop.max_iterations {
-            stuck = iterate(system, preconditioner, v, target, stop.max_iterations, &mut iterations);
+            stuck = by.iterate(system, v, target, stop.max_iterations, &mut iterations);
             reached = v.check(system, free);
         }
         ending = if reached <= goal {
@@ -106,7 +135,7 @@ pub(crate) fn solve<T: Real, F: Force<T>>(
         from = reached;
     }
     let upper = bound::upper(v.r, v.p, v.mu);
-    preconditioner.apply(v.r, v.y);
+    by.precondition(system, v);
     let lower = bound::lower(system, v.r, v.y, v.b, v.p);
     Solve { iterations, upper, lower, ending: ending.unwrap_or(Ending::Stalled), fallback: false }
 }
@@ -138,39 +167,47 @@ impl<T: Real> Vectors<'_, T> {
     }
 }
 
-/// Iterates from r until β ≤ target or the number of iterations is used up; answers whether it broke down (pᵀAp ≤ 0 or
-/// NaN). Leaves z = D⁻¹r in y, unless it broke down.
-#[inline(never)]
-fn iterate<T: Real, F: Force<T>>(
-    system: &System<'_, T, F>,
-    preconditioner: &impl Preconditioner<T>,
-    v: &mut Vectors<'_, T>,
-    target: T,
-    max_iterations: u32,
-    iterations: &mut u32,
-) -> bool {
-    for (p, y) in v.p.iter_mut().zip(v.y.iter_mut()) {
-        (*p, *y) = ([T::ZERO; 3], [T::ZERO; 3]);
-    }
-    // The first sweep has no step to make: it finds z.
-    let (mut step, mut rz) = (T::ZERO, T::ZERO);
-    loop {
-        let (beta, next) = preconditioner.sweep(step, [v.x, v.r, v.p, v.y], v.mu);
-        if !(T::HALF * beta > target) || *iterations >= max_iterations {
-            return false;
-        }
-        let ratio = if rz > T::ZERO { next / rz } else { T::ZERO };
+/// In the scene's own vectors, with any preconditioner.
+struct Plain<'a, P>(&'a P);
+
+impl<T: Real, P: Preconditioner<T>> Iteration<T> for Plain<'_, P> {
+    #[inline(never)]
+    fn iterate<F: Force<T>>(
+        &mut self,
+        system: &System<'_, T, F>,
+        v: &mut Vectors<'_, T>,
+        target: T,
+        max_iterations: u32,
+        iterations: &mut u32,
+    ) -> bool {
         for (p, y) in v.p.iter_mut().zip(v.y.iter_mut()) {
-            *p = vec3::add_scaled(*y, ratio, *p);
-            *y = [T::ZERO; 3];
+            (*p, *y) = ([T::ZERO; 3], [T::ZERO; 3]);
         }
-        let curvature = system.add_product(v.p, v.y);
-        if !(curvature > T::ZERO) {
-            return true;
+        // The first sweep has no step to make: it finds z.
+        let (mut step, mut rz) = (T::ZERO, T::ZERO);
+        loop {
+            let (beta, next) = self.0.sweep(step, [v.x, v.r, v.p, v.y], v.mu);
+            if !(T::HALF * beta > target) || *iterations >= max_iterations {
+                return false;
+            }
+            let ratio = if rz > T::ZERO { next / rz } else { T::ZERO };
+            for (p, y) in v.p.iter_mut().zip(v.y.iter_mut()) {
+                *p = vec3::add_scaled(*y, ratio, *p);
+                *y = [T::ZERO; 3];
+            }
+            let curvature = system.add_product(v.p, v.y);
+            if !(curvature > T::ZERO) {
+                return true;
+            }
+            step = next / curvature;
+            rz = next;
+            *iterations += 1;
         }
-        step = next / curvature;
-        rz = next;
-        *iterations += 1;
+    }
+
+    #[inline]
+    fn precondition<F: Force<T>>(&mut self, _: &System<'_, T, F>, v: &mut Vectors<'_, T>) {
+        self.0.apply(v.r, v.y);
     }
 }
 

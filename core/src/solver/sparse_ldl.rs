@@ -9,8 +9,11 @@
 
 use crate::error::StepError;
 use crate::force::Force;
+use crate::memory::Memory;
+use crate::parts::{Matrix, Parts};
 use crate::real::Real;
 use crate::report::Solve;
+use crate::scene::MassSpring;
 use crate::solver::direct::{self, Factors};
 use crate::solver::elimination::{FIXED, Sizes, analyse, fingerprint, lists};
 use crate::solver::supernodes::Supernodes;
@@ -24,8 +27,9 @@ use crate::vec3::Vec3;
 /// degree, nested dissection). Every order is right: particles that it does not name come last, and what it names twice or
 /// in vain is skipped.
 ///
-/// How much memory is needed depends on the order; a step with too little fails with [`StepError::Workspace`], which says
-/// how much, and never less than there is: of words, first so many as it takes to find out, then all.
+/// How much memory is needed depends on the order. With too little, [`SparseLdl::prepare`] or a step fails with
+/// [`StepError::Workspace`], which says how much, and never less than there is: of words, first so many as it takes to find
+/// out, then all.
 ///
 /// ```
 /// use hooke::{LinearlyImplicitEuler, Scene, SparseLdl, StepError};
@@ -44,16 +48,15 @@ use crate::vec3::Vec3;
 /// net.pin(0)?;
 /// let order = [8, 2, 6, 1, 3, 5, 7, 4];
 /// let (mut numbers, mut words) = (vec![], vec![]);
-/// let report = loop {
-///     let solver = SparseLdl::new(&order, &mut numbers, &mut words);
-///     match net.step(&mut LinearlyImplicitEuler::new(0.01).gravity([0.0, -9.81, 0.0]).solver(solver)) {
-///         Err(StepError::Workspace { numbers: n, words: w }) => {
-///             numbers.resize(n, 0.0);
-///             words.resize(w, 0);
-///         }
-///         other => break other?,
+/// let solver = loop {
+///     let mut solver = SparseLdl::new(order, numbers, words);
+///     match solver.prepare(&mut net) {
+///         Err(StepError::Workspace { numbers: n, words: w }) => (numbers, words) = (vec![0.0; n], vec![0; w]),
+///         other => break other.map(|()| solver)?,
 ///     }
 /// };
+/// let mut euler = LinearlyImplicitEuler::new(0.01).gravity([0.0, -9.81, 0.0]).solver(solver);
+/// let report = net.step(&mut euler)?;
 /// assert_eq!(report.iterations, 1);
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
@@ -75,6 +78,10 @@ impl<O, N, W> SparseLdl<O, N, W> {
     }
 }
 
+fn larger(a: usize, b: usize) -> usize {
+    if a < b { b } else { a }
+}
+
 /// A record's header: whose it is, and its sizes.
 fn header(first: usize, fingerprint: u32, sizes: &Sizes) -> [u32; FIXED] {
     let Sizes { rows, edges, supers, listed, panels, longest } = *sizes;
@@ -90,13 +97,37 @@ fn sizes(header: [u32; FIXED]) -> Sizes {
 }
 
 impl<O: AsRef<[u32]>, N, W: AsMut<[u32]>> SparseLdl<O, N, W> {
+    /// Analyses a scene before its first step, and tells whether the workspace is large enough for all its islands. A step
+    /// does so too; this does it where there is time, and changes nothing of the scene.
+    ///
+    /// # Errors
+    /// [`StepError::Workspace`].
+    pub fn prepare<M: Memory>(&mut self, scene: &mut MassSpring<M>) -> Result<(), StepError>
+    where
+        N: AsMut<[M::Real]>,
+    {
+        let Parts { network, islands, work } = scene.parts();
+        let (mut scratch, mut numbers) = (0, self.numbers.as_mut().len());
+        let mut words = self.words.as_mut().len();
+        for k in 0..islands.count {
+            let sizes = self.analysed(&islands.island(k, work, &network.state()).matrix)?;
+            self.cursor += sizes.words();
+            numbers = larger(numbers, sizes.numbers());
+            scratch = larger(scratch, sizes.scratch());
+            words = larger(words, self.known + scratch);
+        }
+        if (numbers, words) == (self.numbers.as_mut().len(), self.words.as_mut().len()) {
+            return Ok(());
+        }
+        Err(StepError::Workspace { numbers, words })
+    }
+
     /// The sizes of an island's factor, analysed if its record is not the next one.
-    fn prepare<T: Real, F: Force<T>>(&mut self, system: &System<'_, T, F>) -> Result<Sizes, StepError>
+    fn analysed<T: Real>(&mut self, matrix: &Matrix<'_, T>) -> Result<Sizes, StepError>
     where
         N: AsMut<[T]>,
     {
         let numbers = self.numbers.as_mut().len();
-        let matrix = system.matrix;
         if matrix.rows.first == 0 {
             self.cursor = 0;
         }
@@ -137,10 +168,9 @@ where
         problem: Problem<'_, '_, T, F>,
         stop: &Stop<T>,
     ) -> Result<Solve<T>, StepError> {
-        let sizes = self.prepare(&problem.system)?;
+        let sizes = self.analysed(problem.system.matrix)?;
         let (begin, end) = (self.cursor + FIXED, self.cursor + sizes.words());
         let known = self.known;
-        let larger = |a: usize, b: usize| if a < b { b } else { a };
         let lacks = StepError::Workspace {
             numbers: larger(sizes.numbers(), self.numbers.as_mut().len()),
             words: larger(known + sizes.scratch(), self.words.as_mut().len()),

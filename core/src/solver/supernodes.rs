@@ -9,7 +9,7 @@
 use crate::force::Force;
 use crate::real::Real;
 use crate::solver::elimination::{Lists, NONE, Sizes, get, set};
-use crate::solver::panel::{below, below_mut, divided, first, subtract, three, three_mut};
+use crate::solver::panel::{below, below_mut, divided, first, negative, subtract, three, three_mut};
 use crate::solver::pivot::inverse;
 use crate::sym3::Sym3;
 use crate::system::System;
@@ -52,9 +52,9 @@ impl<'a> Node<'a> {
         Self { first, end, rows, from: get(lists.panel, s), to: get(lists.panel, s + 1) }
     }
 
-    /// Numbers of a block column.
+    /// Numbers of a block column; not 0, so that a slice can be cut into such.
     fn length(&self) -> usize {
-        9 * self.rows.len()
+        (9 * self.rows.len()).max(1)
     }
 }
 
@@ -148,13 +148,11 @@ impl<'a, T: Real> Supernodes<'a, T> {
         while let Some(position) = source.rows.get(q).map(|p| *p as usize).filter(|p| *p < node.end) {
             let rows = source.rows.get(q..).unwrap_or_default();
             let Some(update) = self.update.get_mut(..9 * rows.len()) else { return };
-            for number in update.iter_mut() {
-                *number = T::ZERO;
-            }
-            for (column, pivot) in columns.chunks_exact(source.length()).zip(pivots) {
+            for (m, (column, pivot)) in columns.chunks_exact(source.length()).zip(pivots).enumerate() {
                 if let (Some(w), Some(update)) = (three(column), three_mut(&mut *update)) {
                     let w = below(w, q);
-                    subtract(update, w, &divided(first(w), &Sym3(*pivot)));
+                    let l = divided(first(w), &Sym3(*pivot));
+                    if m == 0 { negative(update, w, &l) } else { subtract(update, w, &l) }
                 }
             }
             let within = position.saturating_sub(node.first) * node.length();

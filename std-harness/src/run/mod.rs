@@ -4,6 +4,7 @@ pub mod outcome;
 pub mod plan;
 pub mod recorder;
 pub mod simulation;
+pub mod solver;
 pub mod summary;
 
 use hooke::Real;

@@ -33,7 +33,7 @@ pub struct Outcome {
     pub wall_s: f64,
     /// Median time of a step, ms.
     pub step_ms: f64,
-    /// PCG iterations in all.
+    /// PCG iterations, or solves with a direct solver's factors, in all.
     pub iterations: u64,
     /// The most iterations of a step.
     pub iterations_max: u64,
@@ -47,6 +47,8 @@ pub struct Outcome {
     pub capped_steps: u64,
     /// Steps in which some island stalled above the floor.
     pub stalled_steps: u64,
+    /// Steps in which a direct solver broke down somewhere and PCG answered.
+    pub fallback_steps: u64,
     /// Island solves that took 0 iterations, in all steps together.
     pub untouched_islands: u64,
     /// Springs that no step needed: both ends pinned.
@@ -63,7 +65,7 @@ pub struct Outcome {
     /// The largest lower bound, J.
     #[serde(rename = "error_lower_J")]
     pub error_lower_j: f64,
-    /// Bytes of the scene's lists.
+    /// Bytes of the scene's lists and of the solver's own scratch.
     pub workspace_bytes: usize,
     /// Did the harness renumber the particles?
     pub renumbered: bool,
@@ -123,6 +125,7 @@ impl Outcome {
             at_floor: 0,
             capped_steps: 0,
             stalled_steps: 0,
+            fallback_steps: 0,
             untouched_islands: 0,
             springs_skipped: 0,
             energy_start: energy.total,
@@ -151,6 +154,7 @@ impl Outcome {
         self.at_floor += u64::from(report.at_floor > 0);
         self.capped_steps += u64::from(report.capped > 0);
         self.stalled_steps += u64::from(report.stalled > 0);
+        self.fallback_steps += u64::from(report.fallbacks > 0);
         self.untouched_islands += u64::from(report.untouched);
         self.springs_skipped = report.springs_skipped;
         self.error_bound_j = self.error_bound_j.max(report.upper.to_f64());

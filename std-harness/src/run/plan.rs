@@ -8,6 +8,7 @@ use crate::error::InputError;
 use crate::nearest;
 use crate::output::safe;
 use crate::run::recorder::FILES;
+use crate::run::solver::{METHODS, Method};
 use crate::scene::{Model, source};
 
 /// The most steps a run may have.
@@ -28,6 +29,8 @@ pub struct Plan {
     pub absolute: f64,
     /// At most so many iterations; the kernel's default if none.
     pub max_iterations: Option<u32>,
+    /// How the linear systems are solved.
+    pub method: Method,
     /// Precision.
     pub precision: Precision,
     /// Folder for frames, plot and picture.
@@ -62,9 +65,10 @@ fn not_negative(name: &str, x: f64) -> Result<f64, InputError> {
     }
 }
 
-fn known(what: &str, name: &str, names: &[&str]) -> Result<(), InputError> {
-    if names.contains(&name) {
-        return Ok(());
+/// Which of the names it is.
+fn known(what: &str, name: &str, names: &[&str]) -> Result<usize, InputError> {
+    if let Some(place) = names.iter().position(|known| *known == name) {
+        return Ok(place);
     }
     let near = nearest::suggestion(name, names);
     Err(InputError::new(format!("unknown {what} '{name}'{near} (known here: {})", names.join(", "))))
@@ -74,7 +78,7 @@ impl Plan {
     /// Decides a run from its options.
     pub fn new(args: &RunArgs) -> Result<Self, InputError> {
         known("integrator", &args.integrator, &["euler"])?;
-        known("solver", &args.solver, &["jacobi"])?;
+        let solver = known("solver", &args.solver, &METHODS.map(|(name, _)| name))?;
         let loaded = source::load(args.scene.as_deref().unwrap_or("curtain"))?;
         let (mut model, wanted, inputs) = (loaded.model, loaded.outputs, loaded.files);
         override_model(&mut model, args)?;
@@ -115,6 +119,7 @@ impl Plan {
             tolerance,
             absolute,
             max_iterations: args.max_iterations,
+            method: METHODS[solver].1,
             precision: args.precision,
             out,
             fps,

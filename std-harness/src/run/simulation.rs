@@ -11,6 +11,7 @@ use hooke::{
 };
 
 use super::plan::Plan;
+use super::solver::AnySolver;
 use crate::error::InputError;
 use crate::heap::Heap;
 use crate::output::{Energy, table};
@@ -35,7 +36,8 @@ type Forces<T> = ((((), Gravity<T>), Drag<T>), SpringDamping<Dampings<T>>);
 pub struct Simulation<T: Real> {
     /// The kernel's scene.
     pub scene: MassSpring<Heap<T>>,
-    euler: LinearlyImplicitEuler<T, Forces<T>>,
+    euler: LinearlyImplicitEuler<T, Forces<T>, AnySolver<T>>,
+    solver_bytes: usize,
     moving: Vec<Moving>,
     /// Where the moving pins were at t = 0.
     origin: Vec<[f64; 3]>,
@@ -94,14 +96,25 @@ impl<T: Real + Display> Simulation<T> {
         if let Some(max_iterations) = plan.max_iterations {
             euler = euler.max_iterations(max_iterations);
         }
-        let scene = model.build::<T>()?;
+        let mut scene = model.build::<T>()?;
+        let solver = AnySolver::new(plan.method, &mut scene, model);
+        let solver_bytes = solver.bytes();
+        let euler = euler.solver(solver);
         // What would fail at the first step fails now, before anything is written.
         euler
             .forces
             .check(model.mass.len(), model.springs.len())
             .map_err(|e| InputError::new(e.to_string()))?;
         let origin = model.position.clone();
-        Ok(Self { scene, euler, moving: model.moving.clone(), origin, motion: Vec::new(), dt: plan.dt })
+        Ok(Self {
+            scene,
+            euler,
+            solver_bytes,
+            moving: model.moving.clone(),
+            origin,
+            motion: Vec::new(),
+            dt: plan.dt,
+        })
     }
 
     /// Step number `step`, counted from 1: from (step − 1)·dt to step·dt.
@@ -139,10 +152,10 @@ impl<T: Real + Display> Simulation<T> {
         speeds.fold((0, 0.0), |best, now| if now.1 > best.1 { now } else { best })
     }
 
-    /// Bytes of the scene's lists: state, islands and the solver's vectors.
+    /// Bytes of the scene's lists (state, islands and the solver's vectors) and of the solver's own scratch.
     pub fn workspace_bytes(&self) -> usize {
         let (reals, words) = SceneIn::<T>::needs(self.scene.positions().len(), self.scene.state().springs());
-        reals * size_of::<T>() + words * size_of::<u32>()
+        reals * size_of::<T>() + words * size_of::<u32>() + self.solver_bytes
     }
 
     /// Writes the final CSV in this precision's own shortest decimals.

@@ -59,7 +59,7 @@ pub fn text(plan: &Plan, outcome: &Outcome, recorder: &Recorder<'_>) -> String {
     for note in &plan.model.notes {
         line("note", note.clone());
     }
-    line("method", format!("linearly-implicit Euler, block-Jacobi PCG, {precision}"));
+    line("method", format!("linearly-implicit Euler, {}, {precision}", plan.method));
     if let Some(failure) = &o.failure {
         line("failed", failure.to_string());
     }
@@ -107,6 +107,7 @@ pub fn text(plan: &Plan, outcome: &Outcome, recorder: &Recorder<'_>) -> String {
     }
     for (name, steps, what) in [
         ("note", o.at_floor, "solved to the floor of rounding: as exact as the precision allows"),
+        ("note", o.fallback_steps, "too ill-conditioned for the direct solver: block-Jacobi PCG answered"),
         ("attention", o.capped_steps, "used up --max-iterations: see the bound above"),
         ("attention", o.stalled_steps, "stalled above the floor: see the bound above"),
     ] {

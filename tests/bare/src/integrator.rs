@@ -1,7 +1,7 @@
 //! Making a method, and reading its report.
 
 use hooke::{
-    BlockJacobi, Drag, Gravity, Integrator, Motion, Parts, Report, Solve, Solver, Stop, solver::Problem,
+    BlockJacobi, Drag, Gravity, Integrator, Motion, Parts, Report, Solve, Solver, StepError, Stop, solver::Problem,
 };
 
 use crate::shared::*;
@@ -28,7 +28,7 @@ crate::entry_point::entry_points! {
     ) -> Stepped<T> {
         euler.advance(parts, motion, &mut |island| *seen += island.solve.iterations)
     }
-    Solver::solve(problem: Problem<'_, '_, T, All<'_, T>>, stop: &Stop<T>) -> Solve<T> {
+    Solver::solve(problem: Problem<'_, '_, T, All<'_, T>>, stop: &Stop<T>) -> Result<Solve<T>, StepError> {
         BlockJacobi.solve(problem, stop)
     }
     Report::is_certified(report: &Report<T>) -> bool { report.is_certified() }

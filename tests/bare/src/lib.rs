@@ -8,6 +8,7 @@ mod shared;
 
 mod buffers;
 mod control;
+mod direct;
 mod editing;
 mod equations;
 mod forces;

@@ -1,0 +1,133 @@
+//! The kernel's solvers by name, and the memory that a direct one needs.
+
+use std::fmt;
+
+use hooke::{
+    BandedLdl, BlockJacobi, Force, MassSpring, Memory, Real, Solve, Solver, SparseLdl, StepError, Stop,
+    WideJacobi,
+};
+
+use crate::host::Host;
+use crate::scene::Model;
+
+/// How linear systems are solved.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub enum Method {
+    /// Block-Jacobi PCG.
+    Jacobi,
+    /// Block-Jacobi PCG in lanes, on scenes whose springs join particles at few distances.
+    Wide,
+    /// Block-banded LDLᵀ in the order of the particles.
+    Banded,
+    /// Block-sparse LDLᵀ in an approximate minimum degree order.
+    Ldl,
+}
+
+/// What `--solver` calls them.
+pub const METHODS: [(&str, Method); 4] =
+    [("jacobi", Method::Jacobi), ("wide", Method::Wide), ("banded", Method::Banded), ("ldl", Method::Ldl)];
+
+impl fmt::Display for Method {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Jacobi => "block-Jacobi PCG",
+            Self::Wide => "block-Jacobi PCG in lanes",
+            Self::Banded => "banded LDLᵀ",
+            Self::Ldl => "sparse LDLᵀ",
+        })
+    }
+}
+
+/// Any of the solvers, decided when the program runs.
+#[derive(Debug, Clone)]
+pub enum AnySolver<T> {
+    /// [`Method::Jacobi`]
+    Jacobi(BlockJacobi),
+    /// [`Method::Wide`], and how many bytes it has
+    Wide(Box<WideJacobi<Vec<T>, Vec<u32>, Host>>, usize),
+    /// [`Method::Banded`], and how many numbers it has
+    Banded(BandedLdl<Vec<T>>, usize),
+    /// [`Method::Ldl`], and how many bytes it has
+    Ldl(Box<SparseLdl<Vec<u32>, Vec<T>, Vec<u32>>>, usize),
+}
+
+impl<T: Real> AnySolver<T> {
+    /// The solver with the memory that this scene needs.
+    pub fn new<M: Memory<Real = T>>(method: Method, scene: &mut MassSpring<M>, model: &Model) -> Self {
+        match method {
+            Method::Jacobi => Self::Jacobi(BlockJacobi),
+            Method::Wide => {
+                let (numbers, words) = WideJacobi::needs_of(scene, &mut vec![0; model.springs.len()]);
+                let bytes = numbers * size_of::<T>() + words * size_of::<u32>();
+                let solver = WideJacobi::new(vec![T::ZERO; numbers], vec![0; words], Host::new());
+                Self::Wide(Box::new(solver), bytes)
+            }
+            Method::Banded => {
+                let numbers = BandedLdl::needs_of(scene);
+                Self::Banded(BandedLdl::new(vec![T::ZERO; numbers]), numbers * size_of::<T>())
+            }
+            Method::Ldl => {
+                let order = minimum_degree(&model.pinned, model.springs.iter().map(|spring| spring.ends));
+                let (mut numbers, mut words) = (0, 0);
+                loop {
+                    let mut solver = SparseLdl::new(order.clone(), vec![T::ZERO; numbers], vec![0; words]);
+                    match solver.prepare(scene) {
+                        Err(StepError::Workspace { numbers: n, words: w }) => (numbers, words) = (n, w),
+                        // No other error is there to be had.
+                        _ => {
+                            let bytes = numbers * size_of::<T>() + (words + order.len()) * size_of::<u32>();
+                            return Self::Ldl(Box::new(solver), bytes);
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+    /// Bytes of its own scratch.
+    pub fn bytes(&self) -> usize {
+        match self {
+            Self::Jacobi(_) => 0,
+            Self::Wide(_, bytes) | Self::Banded(_, bytes) | Self::Ldl(_, bytes) => *bytes,
+        }
+    }
+}
+
+impl<T: Real> Solver<T> for AnySolver<T> {
+    fn solve<F: Force<T>>(
+        &mut self,
+        problem: hooke::solver::Problem<'_, '_, T, F>,
+        stop: &Stop<T>,
+    ) -> Result<Solve<T>, StepError> {
+        match self {
+            Self::Jacobi(solver) => solver.solve(problem, stop),
+            Self::Wide(solver, _) => solver.as_mut().solve(problem, stop),
+            Self::Banded(solver, _) => solver.solve(problem, stop),
+            Self::Ldl(solver, _) => solver.as_mut().solve(problem, stop),
+        }
+    }
+}
+
+/// An order of the particles that keeps the factor of their free part sparse.
+pub fn minimum_degree(pinned: &[bool], springs: impl Iterator<Item = [usize; 2]>) -> Vec<u32> {
+    let particles = pinned.len();
+    let mut neighbours = vec![Vec::new(); particles];
+    for [a, b] in springs {
+        if !pinned[a] && !pinned[b] {
+            neighbours[a].push(b);
+            neighbours[b].push(a);
+        }
+    }
+    let (mut from, mut rows) = (vec![0], Vec::new());
+    for list in &mut neighbours {
+        list.sort_unstable();
+        list.dedup();
+        rows.extend_from_slice(list);
+        from.push(rows.len());
+    }
+    match amd::order(particles, &from, &rows, &amd::Control::default()) {
+        Ok((order, _, _)) => order.into_iter().map(|i| i as u32).collect(),
+        // Every order is right: the particles' own.
+        Err(_) => Vec::new(),
+    }
+}
