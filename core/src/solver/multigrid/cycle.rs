@@ -14,6 +14,7 @@
 use super::analysis::{LEVELS, UNKNOWNS};
 use super::dense::Dense;
 use super::level::Level;
+use crate::wide::Dispatch;
 
 /// Centre and half width of [1/3, 2].
 const CENTRE: f32 = 7.0 / 6.0;
@@ -36,15 +37,15 @@ pub(super) struct Hierarchy<'a> {
 
 impl Level<'_> {
     /// Two steps from x and its residual r; leaves the residual before the second step's, and that step in d.
-    fn from_zero(&mut self) {
-        self.start(FIRST);
-        self.relax(Some((KEEP, STEP)));
+    fn from_zero(&mut self, dispatch: impl Dispatch) {
+        self.start(dispatch, FIRST);
+        self.relax(dispatch, Some((KEEP, STEP)));
     }
 
     /// The same from an x whose last change d is not yet in r.
-    fn go_on(&mut self) {
-        self.relax(Some((0.0, FIRST)));
-        self.relax(Some((KEEP, STEP)));
+    fn go_on(&mut self, dispatch: impl Dispatch) {
+        self.relax(dispatch, Some((0.0, FIRST)));
+        self.relax(dispatch, Some((KEEP, STEP)));
     }
 
     /// r of the next level = Pᵀr; its x = 0.
@@ -72,9 +73,9 @@ impl Level<'_> {
     }
 
     /// x = A⁻¹ r, or two steps towards it.
-    fn solve(&mut self, dense: &Dense<'_>) {
+    fn solve(&mut self, dense: &Dense<'_>, dispatch: impl Dispatch) {
         if !dense.sound {
-            self.from_zero();
+            self.from_zero(dispatch);
             return;
         }
         let mut y = [0.0; UNKNOWNS];
@@ -90,7 +91,7 @@ impl Level<'_> {
 
 impl<'a> Hierarchy<'a> {
     /// x = B r on the finest level, where x comes in as zero.
-    pub(super) fn cycle(&mut self) {
+    pub(super) fn cycle(&mut self, dispatch: impl Dispatch) {
         let last = self.count.saturating_sub(1);
         // Bit l: level l is on its second cycle.
         let (mut l, mut second) = (0_usize, 0_u32);
@@ -99,18 +100,18 @@ impl<'a> Hierarchy<'a> {
             while l < last {
                 let Some((fine, coarse)) = self.pair(l) else { return };
                 if second & (1 << l) == 0 {
-                    fine.from_zero();
+                    fine.from_zero(dispatch);
                 } else {
-                    fine.go_on();
+                    fine.go_on(dispatch);
                 }
-                fine.relax(None);
+                fine.relax(dispatch, None);
                 fine.restrict(coarse);
                 l += 1;
                 second &= !(1 << l);
             }
             let dense = &self.dense;
             if let Some(Some(coarsest)) = self.levels.get_mut(last) {
-                coarsest.solve(dense);
+                coarsest.solve(dense, dispatch);
             }
             // Up, until a level has its second cycle before it.
             loop {
@@ -124,7 +125,7 @@ impl<'a> Hierarchy<'a> {
                 l -= 1;
                 let Some((fine, coarse)) = self.pair(l) else { return };
                 fine.prolong(coarse);
-                fine.go_on();
+                fine.go_on(dispatch);
             }
         }
     }

@@ -8,6 +8,7 @@
 use super::level::{Level, TILE, blocks};
 use super::tile::{Planes, Tile, Tile3, WIDTH, add3, mul, sub3, symmetric};
 use crate::sym3::Sym3;
+use crate::wide::Dispatch;
 
 /// Rows of a block ...
 const BLOCK: usize = 128;
@@ -23,7 +24,15 @@ pub(super) type Step = (f32, f32);
 impl Level<'_> {
     /// r −= A d, then, if any, the step.
     #[inline(never)]
-    pub(super) fn relax(&mut self, step: Option<Step>) {
+    pub(super) fn relax(&mut self, dispatch: impl Dispatch, step: Option<Step>) {
+        dispatch.run(
+            #[inline(always)]
+            || self.relax_in_lanes(step),
+        );
+    }
+
+    #[inline(always)]
+    fn relax_in_lanes(&mut self, step: Option<Step>) {
         self.subtract_held();
         self.subtract_loose();
         let rows = self.pattern.size.rows;
@@ -42,12 +51,22 @@ impl Level<'_> {
 
     /// x = d = c D⁻¹r
     #[inline(never)]
-    pub(super) fn start(&mut self, c: f32) {
+    pub(super) fn start(&mut self, dispatch: impl Dispatch, c: f32) {
+        dispatch.run(
+            #[inline(always)]
+            || self.start_in_lanes(c),
+        );
+    }
+
+    #[inline(always)]
+    fn start_in_lanes(&mut self, c: f32) {
         let tiles = self.pattern.size.rows.div_ceil(WIDTH);
-        let inverse = self.inverse.each_ref().map(|plane| tiles_at(plane, 0, tiles));
+        let inverse = tiles6(&self.inverse, 0, tiles);
         let (r, x, d) = (self.r.tiles(0, tiles), self.x.tiles_mut(0, tiles), self.d.tiles_mut(0, tiles));
         let c = [c; WIDTH];
-        for (((inverse, r), x), d) in columns6(inverse).zip(columns(r)).zip(columns_mut(x)).zip(columns_mut(d)) {
+        for (((inverse, r), x), d) in
+            columns6(inverse).zip(columns(r)).zip(columns_mut(x)).zip(columns_mut(d))
+        {
             let [zx, zy, zz] = symmetric(inverse, r);
             let z = [mul(c, zx), mul(c, zy), mul(c, zz)];
             put(x, z);
@@ -60,11 +79,13 @@ impl Level<'_> {
     fn smooth(&mut self, first: usize, end: usize, (a, c): Step) {
         let end = if end < self.mass.len() { end } else { self.mass.len() };
         let tiles = (end - first) / WIDTH;
-        let inverse = self.inverse.each_ref().map(|plane| tiles_at(plane, first, tiles));
+        let inverse = tiles6(&self.inverse, first, tiles);
         let (r, x, d) =
             (self.r.tiles(first, tiles), self.x.tiles_mut(first, tiles), self.d.tiles_mut(first, tiles));
         let (a, c) = ([a; WIDTH], [c; WIDTH]);
-        for (((inverse, r), x), d) in columns6(inverse).zip(columns(r)).zip(columns_mut(x)).zip(columns_mut(d)) {
+        for (((inverse, r), x), d) in
+            columns6(inverse).zip(columns(r)).zip(columns_mut(x)).zip(columns_mut(d))
+        {
             let [zx, zy, zz] = symmetric(inverse, r);
             let [dx, dy, dz] = take3(&d);
             let next = add3([mul(a, dx), mul(a, dy), mul(a, dz)], [mul(c, zx), mul(c, zy), mul(c, zz)]);
@@ -79,8 +100,10 @@ impl Level<'_> {
         let end = if end < self.mass.len() { end } else { self.mass.len() };
         let tiles = (end - first) / WIDTH;
         let mass = tiles_at(self.mass, first, tiles);
-        for ((mass, d), r) in
-            mass.iter().zip(columns(self.d.tiles(first, tiles))).zip(columns_mut(self.r.tiles_mut(first, tiles)))
+        for ((mass, d), r) in mass
+            .iter()
+            .zip(columns(self.d.tiles(first, tiles)))
+            .zip(columns_mut(self.r.tiles_mut(first, tiles)))
         {
             let [x, y, z] = d;
             let left = sub3(take3(&r), [mul(*mass, x), mul(*mass, y), mul(*mass, z)]);
@@ -148,14 +171,13 @@ impl Level<'_> {
 }
 
 /// Both ends' rows are apart: two slices of each plane of r.
-#[inline(never)]
+#[inline(always)]
 fn far(tiles: &[[f32; TILE]], a: usize, offset: usize, d: &Planes<'_>, r: &mut Planes<'_>) {
     let n = tiles.len();
     let d = columns(d.tiles(a, n)).zip(columns(d.tiles(a + offset, n)));
-    let [(xa, xb), (ya, yb), (za, zb)] = r.0.each_mut().map(|plane| {
-        let (low, high) = plane.split_at_mut_checked(a + offset).unwrap_or_default();
-        (tiles_at_mut(low, a, n), tiles_at_mut(high, 0, n))
-    });
+    let [x, y, z] = &mut r.0;
+    let ((xa, xb), (ya, yb), (za, zb)) =
+        (both(x, a, offset, n), both(y, a, offset, n), both(z, a, offset, n));
     let r = columns_mut([xa, ya, za]).zip(columns_mut([xb, yb, zb]));
     for (tile, ((da, db), (ra, rb))) in tiles.iter().zip(d.zip(r)) {
         let force = symmetric(blocks(tile), sub3(da, db));
@@ -165,9 +187,15 @@ fn far(tiles: &[[f32; TILE]], a: usize, offset: usize, d: &Planes<'_>, r: &mut P
     }
 }
 
+#[inline(always)]
+fn both(plane: &mut [f32], a: usize, offset: usize, n: usize) -> (&mut [Tile], &mut [Tile]) {
+    let (low, high) = plane.split_at_mut_checked(a + offset).unwrap_or_default();
+    (tiles_at_mut(low, a, n), tiles_at_mut(high, 0, n))
+}
+
 /// The rows overlap: what the upper ends get waits until the lower ends have theirs. (A load that overlaps the stores just
 /// before it would wait for them.)
-#[inline(never)]
+#[inline(always)]
 fn near(tiles: &[[f32; TILE]], mut a: usize, offset: usize, d: &Planes<'_>, r: &mut Planes<'_>) {
     for tiles in tiles.chunks(WAITING) {
         let n = tiles.len();
@@ -199,15 +227,29 @@ fn tiles_at_mut(plane: &mut [f32], i: usize, n: usize) -> &mut [Tile] {
     plane.get_mut(i..i + WIDTH * n).unwrap_or_default().as_chunks_mut().0
 }
 
+#[inline(always)]
+fn tiles6<'p>([a, b, c, d, e, f]: &'p [&mut [f32]; 6], i: usize, n: usize) -> [&'p [Tile]; 6] {
+    [
+        tiles_at(a, i, n),
+        tiles_at(b, i, n),
+        tiles_at(c, i, n),
+        tiles_at(d, i, n),
+        tiles_at(e, i, n),
+        tiles_at(f, i, n),
+    ]
+}
+
 impl Planes<'_> {
     #[inline(always)]
     fn tiles(&self, i: usize, n: usize) -> [&[Tile]; 3] {
-        self.0.each_ref().map(|plane| tiles_at(plane, i, n))
+        let [x, y, z] = &self.0;
+        [tiles_at(x, i, n), tiles_at(y, i, n), tiles_at(z, i, n)]
     }
 
     #[inline(always)]
     fn tiles_mut(&mut self, i: usize, n: usize) -> [&mut [Tile]; 3] {
-        self.0.each_mut().map(|plane| tiles_at_mut(plane, i, n))
+        let [x, y, z] = &mut self.0;
+        [tiles_at_mut(x, i, n), tiles_at_mut(y, i, n), tiles_at_mut(z, i, n)]
     }
 }
 

@@ -75,20 +75,6 @@ pub(super) fn store(plane: &mut [f32], i: usize, tile: Tile) {
 pub(super) struct Planes<'a>(pub(super) [&'a mut [f32]; 3]);
 
 impl Planes<'_> {
-    #[inline(always)]
-    pub(super) fn load(&self, i: usize) -> Tile3 {
-        let [x, y, z] = &self.0;
-        [load(x, i), load(y, i), load(z, i)]
-    }
-
-    #[inline(always)]
-    pub(super) fn store(&mut self, i: usize, [tx, ty, tz]: Tile3) {
-        let [x, y, z] = &mut self.0;
-        store(x, i, tx);
-        store(y, i, ty);
-        store(z, i, tz);
-    }
-
     /// One row.
     #[inline(always)]
     pub(super) fn at(&self, i: usize) -> [f32; 3] {
