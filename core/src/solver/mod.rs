@@ -15,7 +15,7 @@ mod supernodes;
 
 pub use banded_ldl::BandedLdl;
 pub use jacobi::{BlockJacobi, Jacobi, Preconditioner};
-pub use multigrid::Multigrid;
+pub use multigrid::{LevelPart, Multigrid};
 pub use pcg::Stop;
 pub use sparse_ldl::SparseLdl;
 

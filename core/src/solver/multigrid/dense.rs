@@ -27,14 +27,14 @@ impl<'a> Dense<'a> {
         self.columns.iter_mut().for_each(|column| column.fill(0.0));
     }
 
-    /// Adds a block at rows (a, b) of the lower triangle, a ≥ b; a block on the diagonal by its lower half too.
-    pub(super) fn add(&mut self, a: usize, b: usize, [xx, yy, zz, xy, xz, yz]: [f32; 6], sign: f32) {
+    /// Adds a block at rows (a, b).
+    pub(super) fn add(&mut self, a: usize, b: usize, [xx, yy, zz, xy, xz, yz]: [f32; 6]) {
         let block = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
         for (k, column) in block.iter().enumerate() {
             for (i, entry) in column.iter().enumerate() {
                 let place = self.columns.get_mut(3 * b + k).and_then(|column| column.get_mut(3 * a + i));
                 if let Some(place) = place {
-                    *place += sign * entry;
+                    *place += *entry;
                 }
             }
         }

@@ -179,26 +179,27 @@ impl Level<'_> {
         });
     }
 
-    /// Writes the level's matrix, lower triangle.
-    pub(super) fn write_dense(&self, dense: &mut super::dense::Dense<'_>) {
-        dense.clear();
+    /// The level's blocks as (row, column, block), to be added up.
+    pub(super) fn each_block(&self, mut visit: impl FnMut(usize, usize, [f32; 6])) {
         let rows = self.pattern.size.rows;
         for (i, (mass, held)) in self.mass.iter().zip(self.held.iter()).enumerate().take(rows) {
-            dense.add(i, i, Sym3::scalar(*mass).0, 1.0);
-            dense.add(i, i, *held, 1.0);
+            visit(i, i, Sym3::scalar(*mass).0);
+            visit(i, i, *held);
         }
         for (t, tile) in self.blocks.as_chunks::<TILE>().0.iter().enumerate() {
             let [xx, yy, zz, xy, xz, yz] = blocks(tile);
             let lanes = xx.into_iter().zip(yy).zip(zz).zip(xy.into_iter().zip(xz).zip(yz));
             for (k, (((xx, yy), zz), ((xy, xz), yz))) in lanes.enumerate() {
                 let slot = WIDTH * t + k;
-                let block = [xx, yy, zz, xy, xz, yz];
                 if self.pattern.is_edge(slot) {
                     let ends = [&*self.pattern.a, &*self.pattern.b];
                     let [a, b] = ends.map(|list| get(list, slot) as usize);
-                    dense.add(a, a, block, 1.0);
-                    dense.add(b, b, block, 1.0);
-                    dense.add(b, a, block, -1.0);
+                    let block = [xx, yy, zz, xy, xz, yz];
+                    visit(a, a, block);
+                    visit(b, b, block);
+                    let minus = block.map(|x| -x);
+                    visit(a, b, minus);
+                    visit(b, a, minus);
                 }
             }
         }

@@ -24,6 +24,8 @@ use crate::force::Force;
 use crate::real::Real;
 use crate::report::Solve;
 use crate::solver::{Problem, Solver, Stop, pcg};
+use crate::system::System;
+use crate::vec3::Vec3;
 use crate::wide::{Dispatch, Portable};
 use analysis::DENSE;
 use preconditioner::Preconditioner;
@@ -73,13 +75,13 @@ impl<N, W, D: Dispatch> Multigrid<N, W, D> {
     }
 }
 
-impl<T: Real, N: AsMut<[f32]>, W: AsMut<[u32]>, D: Dispatch> Solver<T> for Multigrid<N, W, D> {
-    fn solve<F: Force<T>>(
+impl<N: AsMut<[f32]>, W: AsMut<[u32]>, D: Dispatch> Multigrid<N, W, D> {
+    /// The hierarchy of a system: known from an earlier step or found, with the system's numbers.
+    fn prepare<T: Real, F: Force<T>>(
         &mut self,
-        problem: Problem<'_, '_, T, F>,
-        stop: &Stop<T>,
-    ) -> Result<Solve<T>, StepError> {
-        let matrix = problem.system.matrix;
+        system: &System<'_, T, F>,
+    ) -> Result<Preconditioner<'_, T, D>, StepError> {
+        let matrix = system.matrix;
         let (rows, springs) = (matrix.own.len(), matrix.other.len());
         if matrix.rows.first == 0 {
             self.place = 0;
@@ -90,8 +92,12 @@ impl<T: Real, N: AsMut<[f32]>, W: AsMut<[u32]>, D: Dispatch> Solver<T> for Multi
         let words = self.place + kept + worked_in;
         let short = StepError::Workspace { numbers, words };
         let pool = self.numbers.as_mut().get_mut(..numbers).ok_or(short)?;
-        let room = self.words.as_mut().get_mut(self.place..words).ok_or(short)?;
-        let (kept, scratch) = room.split_at_mut_checked(kept).ok_or(short)?;
+        // What is kept lies in front, what is soon forgotten at the back, so that no island spoils another's.
+        let room = self.words.as_mut();
+        let back = room.len().checked_sub(worked_in).filter(|_| words <= room.len()).ok_or(short)?;
+        let (front, scratch) = room.split_at_mut_checked(back).ok_or(short)?;
+        let place = if rows > DENSE { self.place } else { back - kept };
+        let kept = front.get_mut(place..place + kept).ok_or(short)?;
         if rows > DENSE {
             self.place += kept.len();
         }
@@ -100,8 +106,55 @@ impl<T: Real, N: AsMut<[f32]>, W: AsMut<[u32]>, D: Dispatch> Solver<T> for Multi
             Some(shape) => shape,
             None => analysis::analyse(matrix, fingerprint, kept, scratch, pool).ok_or(short)?,
         };
+        Preconditioner::new(system, &shape, kept, pool, self.dispatch).ok_or(short)
+    }
+
+    /// z = B r, one cycle for a system's A, B ≈ A⁻¹; answers rᵀz. For tests and for other iterations.
+    ///
+    /// # Errors
+    /// [`StepError::Workspace`] if the workspace is too small.
+    pub fn apply<T: Real, F: Force<T>>(
+        &mut self,
+        system: &System<'_, T, F>,
+        r: &[Vec3<T>],
+        z: &mut [Vec3<T>],
+    ) -> Result<T, StepError> {
+        Ok(self.prepare(system)?.apply(r, preconditioner::largest(r), z))
+    }
+
+    /// Visits all levels of a system's hierarchy, the finest first: its blocks as [`System::blocks`] does, divided by a
+    /// number that is answered, and each row's row on the next level. For tests.
+    ///
+    /// # Errors
+    /// [`StepError::Workspace`] if the workspace is too small.
+    pub fn inspect<T: Real, F: Force<T>>(
+        &mut self,
+        system: &System<'_, T, F>,
+        mut visit: impl FnMut(usize, LevelPart),
+    ) -> Result<T, StepError> {
+        let prepared = self.prepare(system)?;
+        prepared.inspect(&mut visit);
+        Ok(T::ONE / prepared.scale())
+    }
+}
+
+/// A part of a level: see [`Multigrid::inspect`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum LevelPart {
+    /// (row, column, block)
+    Block(usize, usize, [[f32; 3]; 3]),
+    /// (row, row on the next level)
+    Aggregate(usize, usize),
+}
+
+impl<T: Real, N: AsMut<[f32]>, W: AsMut<[u32]>, D: Dispatch> Solver<T> for Multigrid<N, W, D> {
+    fn solve<F: Force<T>>(
+        &mut self,
+        problem: Problem<'_, '_, T, F>,
+        stop: &Stop<T>,
+    ) -> Result<Solve<T>, StepError> {
         let Problem { system, vectors, free, .. } = problem;
-        let cycle = Preconditioner::new(&system, &shape, kept, pool, self.dispatch);
-        Ok(pcg::solve_by(&system, &mut cycle.ok_or(short)?, vectors, stop, free))
+        let mut preconditioner = self.prepare(&system)?;
+        Ok(pcg::solve_by(&system, &mut preconditioner, vectors, stop, free))
     }
 }

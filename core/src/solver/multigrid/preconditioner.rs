@@ -1,6 +1,7 @@
 //! PCG around the cycle: the iterations of [`crate::solver::pcg`] with z = B r. The cycle sees r divided by its largest
 //! component, since f32 would lose a small one, and A divided by σ.
 
+use super::LevelPart;
 use super::analysis::{self, DENSE, LEVELS, Shape, UNKNOWNS};
 use super::cycle::Hierarchy;
 use super::dense::Dense;
@@ -13,6 +14,7 @@ use crate::lanes::Lanes;
 use crate::parts::Vectors;
 use crate::real::{Real, larger};
 use crate::solver::pcg::Iteration;
+use crate::sym3::Sym3;
 use crate::system::System;
 use crate::vec3::{self, Vec3};
 use crate::wide::Dispatch;
@@ -49,7 +51,8 @@ impl<'a, T: Real, D: Dispatch> Preconditioner<'a, T, D> {
             finer = Some(level);
         }
         if let Some(coarsest) = finer.filter(|level| level.pattern.size.rows <= DENSE) {
-            coarsest.write_dense(&mut dense);
+            dense.clear();
+            coarsest.each_block(|a, b, block| dense.add(a, b, block));
             dense.factor();
         }
         Some(Self { scale, hierarchy: Hierarchy { levels, count: shape.levels, dense }, dispatch })
@@ -57,7 +60,7 @@ impl<'a, T: Real, D: Dispatch> Preconditioner<'a, T, D> {
 
     /// z = B r, `most` the largest component of r; answers rᵀz.
     #[inline(never)]
-    fn apply(&mut self, r: &[Vec3<T>], most: T, z: &mut [Vec3<T>]) -> T {
+    pub(super) fn apply(&mut self, r: &[Vec3<T>], most: T, z: &mut [Vec3<T>]) -> T {
         let down = T::ONE / most;
         let up = most * self.scale;
         let mut product = Lanes::new();
@@ -79,6 +82,26 @@ impl<'a, T: Real, D: Dispatch> Preconditioner<'a, T, D> {
             product.add(i, vec3::dot(*r, *z));
         }
         product.sum()
+    }
+}
+
+impl<T: Real, D> Preconditioner<'_, T, D> {
+    /// 1/σ
+    pub(super) fn scale(&self) -> T {
+        self.scale
+    }
+
+    pub(super) fn inspect(&self, visit: &mut impl FnMut(usize, LevelPart)) {
+        for (l, level) in self.hierarchy.levels.iter().flatten().enumerate() {
+            level.each_block(|row, column, block| {
+                visit(l, LevelPart::Block(row, column, Sym3(block).dense()))
+            });
+            if l + 1 < self.hierarchy.count {
+                for (row, aggregate) in level.pattern.aggregate.iter().enumerate() {
+                    visit(l, LevelPart::Aggregate(row, *aggregate as usize));
+                }
+            }
+        }
     }
 }
 
@@ -122,12 +145,17 @@ impl<T: Real, D: Dispatch> Iteration<T> for Preconditioner<'_, T, D> {
     }
 
     fn precondition<F: Force<T>>(&mut self, _: &System<'_, T, F>, v: &mut Vectors<'_, T>) {
-        let most = v.r.iter().fold(T::ZERO, largest);
-        self.apply(v.r, most, v.y);
+        self.apply(v.r, largest(v.r), v.y);
     }
 }
 
-fn largest<T: Real>(most: T, r: &Vec3<T>) -> T {
+/// The largest component.
+pub(super) fn largest<T: Real>(r: &[Vec3<T>]) -> T {
+    r.iter().fold(T::ZERO, larger_of)
+}
+
+#[inline(always)]
+fn larger_of<T: Real>(most: T, r: &Vec3<T>) -> T {
     larger(larger(larger(most, r[0].abs()), r[1].abs()), r[2].abs())
 }
 
@@ -140,7 +168,7 @@ fn update<T: Real>(a: T, v: &mut Vectors<'_, T>) -> (T, T) {
         *x = vec3::add_scaled(*x, a, *p);
         *r = vec3::add_scaled(*r, -a, *y);
         beta.add(i, square(*r, *weight));
-        most = largest(most, r);
+        most = larger_of(most, r);
     }
     (beta.sum(), most)
 }
