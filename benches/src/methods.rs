@@ -4,7 +4,7 @@
 use std::time::Duration;
 
 use cpu_time::ThreadTime;
-use hooke::{BandedLdl, Force, Integrator, SceneIn, SparseLdl, StepError, WideJacobi};
+use hooke::{BandedLdl, Force, Integrator, Multigrid, SceneIn, SparseLdl, StepError, WideJacobi};
 use hooke_harness::host::Host;
 use hooke_harness::run::solver::minimum_degree;
 
@@ -54,6 +54,16 @@ pub(crate) fn methods<F: Force<f64> + Clone>() -> Vec<Method<F>> {
             workspace: scene_bytes,
         },
         Method {
+            name: "hooke multigrid PCG",
+            make: |euler, r| {
+                growing(move |numbers, words| {
+                    let solver = Multigrid::new(vec![0.0; numbers], vec![0; words], Host::new());
+                    Box::new(Timed(euler.clone().tolerance(r).max_iterations(MOST_ITERATIONS).solver(solver)))
+                })
+            },
+            workspace: multigrid_bytes,
+        },
+        Method {
             name: "hooke banded LDL",
             make: |euler, r| {
                 growing(move |numbers, _| {
@@ -78,6 +88,12 @@ const MOST_ITERATIONS: u32 = 100_000;
 fn scene_bytes(scene: &HostScene) -> usize {
     let (reals, words) = SceneIn::<f64>::needs(scene.positions().len(), scene.state().springs());
     reals * size_of::<f64>() + words * size_of::<u32>()
+}
+
+/// The same with multigrid's own.
+fn multigrid_bytes(scene: &HostScene) -> usize {
+    let (numbers, words) = Multigrid::needs(scene.positions().len(), scene.state().springs());
+    scene_bytes(scene) + numbers * size_of::<f32>() + words * size_of::<u32>()
 }
 
 /// Any integrator of the kernel.

@@ -20,6 +20,7 @@ mod matrices;
 mod memory;
 mod modes;
 mod momentum;
+mod multigrid;
 mod one_spring;
 mod pins;
 mod rest;

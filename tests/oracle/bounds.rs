@@ -6,6 +6,7 @@ use hooke_tests::build::{self, Forces};
 use hooke_tests::data::{MotionData, SceneData};
 use hooke_tests::direct;
 use hooke_tests::generate::{self, Ingredients};
+use hooke_tests::multigrid::multigrid;
 use hooke_tests::precise::{Factor, big, small};
 use hooke_tests::random::Random;
 
@@ -160,6 +161,18 @@ fn the_true_error_lies_between_the_bounds_in_f64() {
 #[test]
 fn the_true_error_lies_between_the_bounds_in_f32() {
     met(&true_error_lies_between_the_bounds::<f32, _>("f32", 32, |_| BlockJacobi));
+}
+
+/// A cycle is nearly exact on nets so small that all of them is the coarsest level: few solves are cut short.
+fn met_by_multigrid(seen: &Seen) {
+    assert!(seen.clamped > SYSTEMS / 50 && seen.floor > SYSTEMS / 50);
+    assert!(seen.tightness.len() > SYSTEMS / 3, "{} lower bounds", seen.tightness.len());
+}
+
+#[test]
+fn the_true_error_of_multigrid_lies_between_the_bounds() {
+    met_by_multigrid(&true_error_lies_between_the_bounds::<f64, _>("multigrid f64", 642, multigrid));
+    met_by_multigrid(&true_error_lies_between_the_bounds::<f32, _>("multigrid f32", 322, multigrid));
 }
 
 /// Direct solves leave rounding only; some of it is to be recognised as an error that is there.

@@ -7,6 +7,7 @@ use hooke_tests::data::{MotionData, SceneData, distance};
 use hooke_tests::dense::Dense;
 use hooke_tests::direct;
 use hooke_tests::generate::{self, Ingredients};
+use hooke_tests::multigrid::multigrid;
 use hooke_tests::random::Random;
 use hooke_tests::{allowed, textbook};
 use nalgebra::DVector;
@@ -154,6 +155,12 @@ fn a_direct_step_is_the_dense_solve_within_the_bound_whatever_the_tolerance() {
     against_dense::<f64, _>(&[1e-1, 1e-8, 1e-12], allowed::U64, 12, direct::sparse);
     against_dense::<f32, _>(&[1e-1, 1e-4, 1e-12], allowed::U32, 13, direct::banded);
     against_dense::<f32, _>(&[1e-1, 1e-4, 1e-12], allowed::U32, 14, direct::sparse);
+}
+
+#[test]
+fn a_multigrid_step_is_the_dense_solve_within_the_bound() {
+    against_dense::<f64, _>(&[1e-1, 1e-3, 1e-6, 1e-8], allowed::U64, 15, multigrid);
+    against_dense::<f32, _>(&[1e-1, 1e-3, 1e-4], allowed::U32, 16, multigrid);
 }
 
 #[test]

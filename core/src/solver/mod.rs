@@ -6,6 +6,7 @@ mod chain;
 mod direct;
 mod elimination;
 pub(crate) mod jacobi;
+mod multigrid;
 mod panel;
 pub(crate) mod pcg;
 mod pivot;
@@ -14,6 +15,7 @@ mod supernodes;
 
 pub use banded_ldl::BandedLdl;
 pub use jacobi::{BlockJacobi, Jacobi, Preconditioner};
+pub use multigrid::{LevelPart, Multigrid};
 pub use pcg::Stop;
 pub use sparse_ldl::SparseLdl;
 

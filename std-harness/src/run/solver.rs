@@ -3,8 +3,8 @@
 use std::fmt;
 
 use hooke::{
-    BandedLdl, BlockJacobi, Force, MassSpring, Memory, Real, Solve, Solver, SparseLdl, StepError, Stop,
-    WideJacobi,
+    BandedLdl, BlockJacobi, Force, MassSpring, Memory, Multigrid, Real, Solve, Solver, SparseLdl, StepError,
+    Stop, WideJacobi,
 };
 
 use crate::host::Host;
@@ -17,6 +17,8 @@ pub enum Method {
     Jacobi,
     /// Block-Jacobi PCG in lanes, on scenes whose springs join particles at few distances.
     Wide,
+    /// PCG around one aggregation-multigrid cycle in f32.
+    Multigrid,
     /// Block-banded LDLᵀ in the order of the particles.
     Banded,
     /// Block-sparse LDLᵀ in an approximate minimum degree order.
@@ -24,14 +26,20 @@ pub enum Method {
 }
 
 /// What `--solver` calls them.
-pub const METHODS: [(&str, Method); 4] =
-    [("jacobi", Method::Jacobi), ("wide", Method::Wide), ("banded", Method::Banded), ("ldl", Method::Ldl)];
+pub const METHODS: [(&str, Method); 5] = [
+    ("jacobi", Method::Jacobi),
+    ("wide", Method::Wide),
+    ("multigrid", Method::Multigrid),
+    ("banded", Method::Banded),
+    ("ldl", Method::Ldl),
+];
 
 impl fmt::Display for Method {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Jacobi => "block-Jacobi PCG",
             Self::Wide => "block-Jacobi PCG in lanes",
+            Self::Multigrid => "multigrid PCG",
             Self::Banded => "banded LDLᵀ",
             Self::Ldl => "sparse LDLᵀ",
         })
@@ -45,6 +53,8 @@ pub enum AnySolver<T> {
     Jacobi(BlockJacobi),
     /// [`Method::Wide`], and how many bytes it has
     Wide(Box<WideJacobi<Vec<T>, Vec<u32>, Host>>, usize),
+    /// [`Method::Multigrid`], and how many bytes it has
+    Multigrid(Box<Multigrid<Vec<f32>, Vec<u32>, Host>>, usize),
     /// [`Method::Banded`], and how many numbers it has
     Banded(BandedLdl<Vec<T>>, usize),
     /// [`Method::Ldl`], and how many bytes it has
@@ -61,6 +71,12 @@ impl<T: Real> AnySolver<T> {
                 let bytes = numbers * size_of::<T>() + words * size_of::<u32>();
                 let solver = WideJacobi::new(vec![T::ZERO; numbers], vec![0; words], Host::new());
                 Self::Wide(Box::new(solver), bytes)
+            }
+            Method::Multigrid => {
+                let (numbers, words) = Multigrid::needs(model.pinned.len(), model.springs.len());
+                let bytes = numbers * size_of::<f32>() + words * size_of::<u32>();
+                let solver = Multigrid::new(vec![0.0; numbers], vec![0; words], Host::new());
+                Self::Multigrid(Box::new(solver), bytes)
             }
             Method::Banded => {
                 let numbers = BandedLdl::needs_of(scene);
@@ -88,7 +104,10 @@ impl<T: Real> AnySolver<T> {
     pub fn bytes(&self) -> usize {
         match self {
             Self::Jacobi(_) => 0,
-            Self::Wide(_, bytes) | Self::Banded(_, bytes) | Self::Ldl(_, bytes) => *bytes,
+            Self::Wide(_, bytes)
+            | Self::Multigrid(_, bytes)
+            | Self::Banded(_, bytes)
+            | Self::Ldl(_, bytes) => *bytes,
         }
     }
 }
@@ -102,6 +121,7 @@ impl<T: Real> Solver<T> for AnySolver<T> {
         match self {
             Self::Jacobi(solver) => solver.solve(problem, stop),
             Self::Wide(solver, _) => solver.as_mut().solve(problem, stop),
+            Self::Multigrid(solver, _) => solver.as_mut().solve(problem, stop),
             Self::Banded(solver, _) => solver.solve(problem, stop),
             Self::Ldl(solver, _) => solver.as_mut().solve(problem, stop),
         }

@@ -1,0 +1,160 @@
+//! Aggregation multigrid as a preconditioner: PCG in the scene's precision around one cycle in f32.
+//!
+//! Rows are put together in groups of up to eight ([`matching`]), again and again ([`analysis`], once per pattern); every
+//! level is a net of springs again ([`level`], [`galerkin`]), whose edges lie where they can be read in order ([`runs`]). A
+//! [`cycle`] smooths on every level and solves the last one directly ([`dense`]). The number of iterations then hardly grows
+//! with the size of the net; PCG certifies the answer as ever, so a bad hierarchy costs time, never truth.
+//!
+//! Cost per cycle: about ten products of the finest level in f32. Memory: see [`Multigrid::needs`].
+
+mod analysis;
+mod cycle;
+mod dense;
+mod galerkin;
+mod level;
+mod matching;
+mod preconditioner;
+mod relax;
+mod runs;
+mod tile;
+mod words;
+
+use crate::error::StepError;
+use crate::force::Force;
+use crate::real::Real;
+use crate::report::Solve;
+use crate::solver::{Problem, Solver, Stop, pcg};
+use crate::system::System;
+use crate::vec3::Vec3;
+use crate::wide::{Dispatch, Portable};
+use analysis::DENSE;
+use preconditioner::Preconditioner;
+
+/// PCG with an aggregation-multigrid preconditioner, in a workspace of the caller's: arrays, borrowed slices, vectors.
+///
+/// ```
+/// use hooke::{LinearlyImplicitEuler, Multigrid, Portable, Scene};
+/// const NEEDS: (usize, usize) = Multigrid::needs(40, 39);
+/// let mut rope = Box::new(Scene::<f32, 40, 39>::new());
+/// for i in 0..40 {
+///     rope.particle([0.1 * i as f32, 0.0, 0.0], 0.010)?;
+/// }
+/// for i in 1..40 {
+///     rope.spring(i - 1, i, 1_000.0)?;
+/// }
+/// rope.pin(0)?;
+/// let solver = Multigrid::new(vec![0.0; NEEDS.0], vec![0; NEEDS.1], Portable);
+/// let mut euler = LinearlyImplicitEuler::new(1.0 / 60.0).gravity([0.0, -9.81, 0.0]).solver(solver);
+/// assert!(rope.step(&mut euler)?.iterations < 20);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone, Copy)]
+pub struct Multigrid<N, W, D = Portable> {
+    numbers: N,
+    words: W,
+    dispatch: D,
+    /// Where the next island's hierarchy is kept
+    place: usize,
+}
+
+impl Multigrid<(), ()> {
+    /// How many numbers (f32) and words a scene of so many particles and springs needs.
+    pub const fn needs(particles: usize, springs: usize) -> (usize, usize) {
+        // An island that is solved directly keeps nothing; of others there are n/25 at most. So much more than linear:
+        let most = particles / (DENSE + 1);
+        let kept = analysis::words_kept(particles, springs) + most * analysis::words_kept(0, 0);
+        (analysis::numbers(particles, springs), kept + analysis::words_worked_in(particles, springs))
+    }
+}
+
+impl<N, W, D: Dispatch> Multigrid<N, W, D> {
+    /// A solver in this workspace; [`Multigrid::needs`] says how large it is to be. If it is too small, a step fails with
+    /// [`StepError::Workspace`], which says so too.
+    pub const fn new(numbers: N, words: W, dispatch: D) -> Self {
+        Self { numbers, words, dispatch, place: 0 }
+    }
+}
+
+impl<N: AsMut<[f32]>, W: AsMut<[u32]>, D: Dispatch> Multigrid<N, W, D> {
+    /// The hierarchy of a system: known from an earlier step or found, with the system's numbers.
+    fn prepare<T: Real, F: Force<T>>(
+        &mut self,
+        system: &System<'_, T, F>,
+    ) -> Result<Preconditioner<'_, T, D>, StepError> {
+        let matrix = system.matrix;
+        let (rows, springs) = (matrix.own.len(), matrix.other.len());
+        if matrix.rows.first == 0 {
+            self.place = 0;
+        }
+        let (kept, worked_in) =
+            (analysis::words_kept(rows, springs), analysis::words_worked_in(rows, springs));
+        let numbers = analysis::numbers(rows, springs);
+        let words = self.place + kept + worked_in;
+        let short = StepError::Workspace { numbers, words };
+        let pool = self.numbers.as_mut().get_mut(..numbers).ok_or(short)?;
+        // What is kept lies in front, what is soon forgotten at the back, so that no island spoils another's.
+        let room = self.words.as_mut();
+        let back = room.len().checked_sub(worked_in).filter(|_| words <= room.len()).ok_or(short)?;
+        let (front, scratch) = room.split_at_mut_checked(back).ok_or(short)?;
+        let place = if rows > DENSE { self.place } else { back - kept };
+        let kept = front.get_mut(place..place + kept).ok_or(short)?;
+        if rows > DENSE {
+            self.place += kept.len();
+        }
+        let fingerprint = analysis::fingerprint(matrix.own, matrix.other);
+        let shape = match analysis::recall(kept, fingerprint, rows, springs) {
+            Some(shape) => shape,
+            None => analysis::analyse(matrix, fingerprint, kept, scratch, pool).ok_or(short)?,
+        };
+        Preconditioner::new(system, &shape, kept, pool, self.dispatch).ok_or(short)
+    }
+
+    /// z = B r, one cycle for a system's A, B ≈ A⁻¹; answers rᵀz. For tests and for other iterations.
+    ///
+    /// # Errors
+    /// [`StepError::Workspace`] if the workspace is too small.
+    pub fn apply<T: Real, F: Force<T>>(
+        &mut self,
+        system: &System<'_, T, F>,
+        r: &[Vec3<T>],
+        z: &mut [Vec3<T>],
+    ) -> Result<T, StepError> {
+        Ok(self.prepare(system)?.apply(r, preconditioner::largest(r), z))
+    }
+
+    /// Visits all levels of a system's hierarchy, the finest first: its blocks as [`System::blocks`] does, divided by a
+    /// number that is answered, and each row's row on the next level. For tests.
+    ///
+    /// # Errors
+    /// [`StepError::Workspace`] if the workspace is too small.
+    pub fn inspect<T: Real, F: Force<T>>(
+        &mut self,
+        system: &System<'_, T, F>,
+        mut visit: impl FnMut(usize, LevelPart),
+    ) -> Result<T, StepError> {
+        let prepared = self.prepare(system)?;
+        prepared.inspect(&mut visit);
+        Ok(T::ONE / prepared.scale())
+    }
+}
+
+/// A part of a level: see [`Multigrid::inspect`].
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub enum LevelPart {
+    /// (row, column, block)
+    Block(usize, usize, [[f32; 3]; 3]),
+    /// (row, row on the next level)
+    Aggregate(usize, usize),
+}
+
+impl<T: Real, N: AsMut<[f32]>, W: AsMut<[u32]>, D: Dispatch> Solver<T> for Multigrid<N, W, D> {
+    fn solve<F: Force<T>>(
+        &mut self,
+        problem: Problem<'_, '_, T, F>,
+        stop: &Stop<T>,
+    ) -> Result<Solve<T>, StepError> {
+        let Problem { system, vectors, free, .. } = problem;
+        let mut preconditioner = self.prepare(&system)?;
+        Ok(pcg::solve_by(&system, &mut preconditioner, vectors, stop, free))
+    }
+}

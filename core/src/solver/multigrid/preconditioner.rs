@@ -1,0 +1,174 @@
+//! PCG around the cycle: the iterations of [`crate::solver::pcg`] with z = B r. The cycle sees r divided by its largest
+//! component, since f32 would lose a small one, and A divided by σ.
+
+use super::LevelPart;
+use super::analysis::{self, DENSE, LEVELS, Shape, UNKNOWNS};
+use super::cycle::Hierarchy;
+use super::dense::Dense;
+use super::galerkin;
+use super::level::Level;
+use super::words::take;
+use crate::bound::square;
+use crate::force::Force;
+use crate::lanes::Lanes;
+use crate::parts::Vectors;
+use crate::real::{Real, larger};
+use crate::solver::pcg::Iteration;
+use crate::sym3::Sym3;
+use crate::system::System;
+use crate::vec3::{self, Vec3};
+use crate::wide::Dispatch;
+
+/// The hierarchy with this step's numbers.
+pub(super) struct Preconditioner<'a, T, D> {
+    /// 1/σ
+    scale: T,
+    hierarchy: Hierarchy<'a>,
+    dispatch: D,
+}
+
+impl<'a, T: Real, D: Dispatch> Preconditioner<'a, T, D> {
+    #[inline(never)]
+    pub(super) fn new<F: Force<T>>(
+        system: &System<'_, T, F>,
+        shape: &Shape,
+        mut kept: &'a mut [u32],
+        mut pool: &'a mut [f32],
+        dispatch: D,
+    ) -> Option<Self> {
+        let slot_of = analysis::skip_record(&mut kept, system.matrix.other.len())?;
+        let scale = T::ONE / galerkin::largest(system);
+        let coarsest = shape.size.get(shape.levels.checked_sub(1)?)?.rows;
+        let mut dense = Dense::new(take(&mut pool, UNKNOWNS * UNKNOWNS)?, coarsest);
+        let mut levels = [const { None }; LEVELS];
+        let mut finer: Option<&mut Level<'_>> = None;
+        for (level, size) in levels.iter_mut().zip(&shape.size).take(shape.levels) {
+            let level = level.insert(Level::carve(&mut kept, &mut pool, *size)?);
+            match finer {
+                None => level.fill(system, slot_of, scale),
+                Some(fine) => level.coarsen(fine),
+            }
+            finer = Some(level);
+        }
+        if let Some(coarsest) = finer.filter(|level| level.pattern.size.rows <= DENSE) {
+            dense.clear();
+            coarsest.each_block(|a, b, block| dense.add(a, b, block));
+            dense.factor();
+        }
+        Some(Self { scale, hierarchy: Hierarchy { levels, count: shape.levels, dense }, dispatch })
+    }
+
+    /// z = B r, `most` the largest component of r; answers rᵀz.
+    #[inline(never)]
+    pub(super) fn apply(&mut self, r: &[Vec3<T>], most: T, z: &mut [Vec3<T>]) -> T {
+        let down = T::ONE / most;
+        let up = most * self.scale;
+        let mut product = Lanes::new();
+        let Some(Some(finest)) = self.hierarchy.levels.first_mut() else { return T::ZERO };
+        if !(most > T::ZERO && down.is_finite() && up.is_finite()) {
+            z.fill([T::ZERO; 3]);
+            return T::ZERO;
+        }
+        let [x, y, z_plane] = &mut finest.r.0;
+        for (((x, y), z), r) in x.iter_mut().zip(y.iter_mut()).zip(z_plane.iter_mut()).zip(r) {
+            [*x, *y, *z] = vec3::scale(down, *r).map(|r| r.to_f64() as f32);
+        }
+        self.hierarchy.cycle(self.dispatch);
+        let Some(Some(finest)) = self.hierarchy.levels.first() else { return T::ZERO };
+        let [x, y, z_plane] = &finest.x.0;
+        let solved = x.iter().zip(y.iter()).zip(z_plane.iter());
+        for (i, ((z, r), ((x, y), z_of))) in z.iter_mut().zip(r).zip(solved).enumerate() {
+            *z = vec3::scale(up, [*x, *y, *z_of].map(|x| T::from_f64(f64::from(x))));
+            product.add(i, vec3::dot(*r, *z));
+        }
+        product.sum()
+    }
+}
+
+impl<T: Real, D> Preconditioner<'_, T, D> {
+    /// 1/σ
+    pub(super) fn scale(&self) -> T {
+        self.scale
+    }
+
+    pub(super) fn inspect(&self, visit: &mut impl FnMut(usize, LevelPart)) {
+        for (l, level) in self.hierarchy.levels.iter().flatten().enumerate() {
+            level.each_block(|row, column, block| {
+                visit(l, LevelPart::Block(row, column, Sym3(block).dense()))
+            });
+            if l + 1 < self.hierarchy.count {
+                for (row, aggregate) in level.pattern.aggregate.iter().enumerate() {
+                    visit(l, LevelPart::Aggregate(row, *aggregate as usize));
+                }
+            }
+        }
+    }
+}
+
+impl<T: Real, D: Dispatch> Iteration<T> for Preconditioner<'_, T, D> {
+    #[inline(never)]
+    fn iterate<F: Force<T>>(
+        &mut self,
+        system: &System<'_, T, F>,
+        v: &mut Vectors<'_, T>,
+        target: T,
+        max_iterations: u32,
+        iterations: &mut u32,
+    ) -> bool {
+        for (p, y) in v.p.iter_mut().zip(v.y.iter_mut()) {
+            (*p, *y) = ([T::ZERO; 3], [T::ZERO; 3]);
+        }
+        // The first update has no step to make.
+        let (mut step, mut rz) = (T::ZERO, T::ZERO);
+        loop {
+            let (beta, most) = update(step, v);
+            if !(T::HALF * beta > target) || *iterations >= max_iterations {
+                return false;
+            }
+            let next = self.apply(v.r, most, v.y);
+            if !(next > T::ZERO) {
+                return true;
+            }
+            let ratio = if rz > T::ZERO { next / rz } else { T::ZERO };
+            for (p, y) in v.p.iter_mut().zip(v.y.iter_mut()) {
+                *p = vec3::add_scaled(*y, ratio, *p);
+                *y = [T::ZERO; 3];
+            }
+            let curvature = system.add_product(v.p, v.y);
+            if !(curvature > T::ZERO) {
+                return true;
+            }
+            step = next / curvature;
+            rz = next;
+            *iterations += 1;
+        }
+    }
+
+    fn precondition<F: Force<T>>(&mut self, _: &System<'_, T, F>, v: &mut Vectors<'_, T>) {
+        self.apply(v.r, largest(v.r), v.y);
+    }
+}
+
+/// The largest component.
+pub(super) fn largest<T: Real>(r: &[Vec3<T>]) -> T {
+    r.iter().fold(T::ZERO, larger_of)
+}
+
+#[inline(always)]
+fn larger_of<T: Real>(most: T, r: &Vec3<T>) -> T {
+    larger(larger(larger(most, r[0].abs()), r[1].abs()), r[2].abs())
+}
+
+/// x += a p, r −= a y; answers Σ|rᵢ|²/μᵢ and the largest component of r.
+#[inline(never)]
+fn update<T: Real>(a: T, v: &mut Vectors<'_, T>) -> (T, T) {
+    let (mut beta, mut most) = (Lanes::new(), T::ZERO);
+    let vectors = v.x.iter_mut().zip(v.r.iter_mut()).zip(v.p.iter().zip(v.y.iter()));
+    for (i, (((x, r), (p, y)), weight)) in vectors.zip(v.mu.iter()).enumerate() {
+        *x = vec3::add_scaled(*x, a, *p);
+        *r = vec3::add_scaled(*r, -a, *y);
+        beta.add(i, square(*r, *weight));
+        most = larger_of(most, r);
+    }
+    (beta.sum(), most)
+}
