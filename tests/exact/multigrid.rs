@@ -124,7 +124,7 @@ fn every_level_is_the_galerkin_matrix_of_the_one_before() {
                 })
                 .unwrap();
             let mut expected = DMatrix::<f64>::zeros(3 * rows, 3 * rows);
-            let mut add = |matrix: &mut DMatrix<f64>, a: usize, b: usize, block: [[f64; 3]; 3]| {
+            let add = |matrix: &mut DMatrix<f64>, a: usize, b: usize, block: [[f64; 3]; 3]| {
                 (0..9).for_each(|k| matrix[(3 * a + k / 3, 3 * b + k % 3)] += block[k / 3][k % 3]);
             };
             system.blocks(|a, b, block| add(&mut expected, a, b, block.map(|row| row.map(|x| x / scale))));

@@ -11,8 +11,8 @@ without_features() {
     sed -i -E '/^(pub )?(mod|use) (snapshot|reaction|energy|momentum|stiffness)\b/d' "$source/lib.rs"
     sed -i -E 's/^(pub use force::).*$/\1{Force, Gravity};/' "$source/lib.rs"
     sed -i -E '/^(pub )?(mod|use) (drag|damping|point_force|point_spring)\b/d' "$source/force/mod.rs"
-    rm -r "$source/wide" "$source"/solver/{banded_ldl,chain,direct,elimination,panel,pivot,sparse_ldl,supernodes}.rs
-    sed -i -E '/^(pub )?(mod|use) (wide|banded_ldl|chain|direct|elimination|panel|pivot|sparse_ldl|supernodes)\b/d' \
+    rm -r "$source"/{wide,solver/multigrid} "$source"/solver/{banded_ldl,chain,direct,elimination,panel,pivot,sparse_ldl,supernodes}.rs
+    sed -i -E '/^(pub )?(mod|use) (wide|multigrid|banded_ldl|chain|direct|elimination|panel|pivot|sparse_ldl|supernodes)\b/d' \
         "$source/lib.rs" "$source/solver/mod.rs"
     sed -i -E 's/^(pub use solver::).*$/\1{BlockJacobi, Jacobi, Preconditioner, Solver, Stop};/' "$source/lib.rs"
     # Comments too: what they belong to is gone.

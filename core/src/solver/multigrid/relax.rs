@@ -266,7 +266,7 @@ fn columns6([a, b, c, d, e, f]: [&[Tile]; 6]) -> impl Iterator<Item = [Tile; 6]>
 }
 
 #[inline(always)]
-fn columns_mut<'t>([x, y, z]: [&'t mut [Tile]; 3]) -> impl Iterator<Item = [&'t mut Tile; 3]> {
+fn columns_mut([x, y, z]: [&mut [Tile]; 3]) -> impl Iterator<Item = [&mut Tile; 3]> {
     x.iter_mut().zip(y).zip(z).map(|((x, y), z)| [x, y, z])
 }
 
