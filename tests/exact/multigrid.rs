@@ -25,10 +25,12 @@ fn moved(mut data: SceneData, steps: usize) -> SceneData {
     data
 }
 
-/// A cloth with pins in its midst and a point spring.
+/// A cloth with a pin in its midst, a point spring, drag and damping.
 fn held(n: usize) -> SceneData {
     let mut data = generate::cloth(n);
     data.pinned[n * n / 2] = true;
+    data.drag = 0.1;
+    data.springs.iter_mut().enumerate().for_each(|(j, spring)| spring.c = 0.01 * (j % 3) as f64);
     data.points.push(PointData { particle: n + 1, target: [0.3, 0.4, 0.1], k: 40.0, l0: 0.1 });
     data
 }
@@ -89,6 +91,7 @@ fn the_cycle_is_symmetric_and_positive<T: Real>() {
                         .sum()
                 };
                 let off = (dot(&s, &br) - dot(&r, &bs)).abs() / (rr * ss).sqrt();
+                println!("asymmetry {:.1} u", off / allowed::U32);
                 assert!(off <= allowed::CYCLE * allowed::U32, "{off:e} with {rows} rows");
             }
         });
@@ -124,7 +127,7 @@ fn every_level_is_the_galerkin_matrix_of_the_one_before() {
                 })
                 .unwrap();
             let mut expected = DMatrix::<f64>::zeros(3 * rows, 3 * rows);
-            let mut add = |matrix: &mut DMatrix<f64>, a: usize, b: usize, block: [[f64; 3]; 3]| {
+            let add = |matrix: &mut DMatrix<f64>, a: usize, b: usize, block: [[f64; 3]; 3]| {
                 (0..9).for_each(|k| matrix[(3 * a + k / 3, 3 * b + k % 3)] += block[k / 3][k % 3]);
             };
             system.blocks(|a, b, block| add(&mut expected, a, b, block.map(|row| row.map(|x| x / scale))));
@@ -136,6 +139,7 @@ fn every_level_is_the_galerkin_matrix_of_the_one_before() {
                     .for_each(|(a, b, block)| add(&mut seen, *a, *b, block.map(|row| row.map(f64::from))));
                 let size = expected.amax();
                 let off = (&seen - &expected).amax() / size;
+                println!("level {l}: off by {:.1} u", off / allowed::U32);
                 assert!(off <= allowed::GALERKIN * allowed::U32, "level {l}: {off:e}");
                 if l + 1 < levels.len() {
                     assert_eq!(up[l].len(), n / 3, "every row has an aggregate");
@@ -176,7 +180,7 @@ fn iterations(n: usize) -> (u32, u32) {
     for _ in 0..6 {
         data = moved(data, if most == 0 { 15 } else { 3 });
         let count = |found: Vec<(Vec<[u64; 6]>, Report<f64>)>| {
-            assert!(found[0].1.is_certified());
+            assert_eq!(found[0].1.capped + found[0].1.stalled + found[0].1.at_floor, 0);
             found[0].1.iterations
         };
         most = most.max(count(walk(&mut build::scene(&data), &data, 1e-6, multigrid(&data), 1)));
@@ -199,11 +203,11 @@ fn iterations_hardly_grow_with_the_cloth() {
 #[test]
 fn multigrid_solves_what_the_plain_solver_solves() {
     let data = held(12);
-    let expected = walk::<f64>(&mut build::scene(&data), &data, 1e-12, BlockJacobi, 15);
-    let found = walk::<f64>(&mut build::scene(&data), &data, 1e-12, multigrid(&data), 15);
+    let expected = walk::<f64>(&mut build::scene(&data), &data, 1e-12, BlockJacobi, 10);
+    let found = walk::<f64>(&mut build::scene(&data), &data, 1e-12, multigrid(&data), 10);
     for ((a, expected), (b, found)) in expected.iter().zip(&found) {
         assert_eq!((found.clamped, found.certified), (expected.clamped, expected.certified));
-        for (a, b) in a.iter().flatten().zip(b.iter().flatten()) {
+        for (a, b) in a.iter().zip(b).flat_map(|(a, b)| a[..3].iter().zip(&b[..3])) {
             let (a, b) = (f64::from_bits(*a), f64::from_bits(*b));
             assert!((a - b).abs() <= allowed::TRAJECTORY, "{a} {b}");
         }
