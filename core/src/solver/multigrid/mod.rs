@@ -80,11 +80,13 @@ impl<N, W, D: Dispatch> Multigrid<N, W, D> {
 }
 
 impl<N: AsMut<[f32]>, W: AsMut<[u32]>, D: Dispatch> Multigrid<N, W, D> {
-    /// The hierarchy of a system: known from an earlier step or found, with the system's numbers.
-    fn prepare<T: Real, F: Force<T>>(
-        &mut self,
+    /// The hierarchy of a system, known from an earlier step or found, with the system's numbers, into `to`.
+    #[inline(never)]
+    fn prepare<'a, T: Real, F: Force<T>>(
+        &'a mut self,
         system: &System<'_, T, F>,
-    ) -> Result<Preconditioner<'_, T, D>, StepError> {
+        to: &mut Preconditioner<'a, T, D>,
+    ) -> Result<(), StepError> {
         let matrix = system.matrix;
         let (rows, springs) = (matrix.own.len(), matrix.other.len());
         if matrix.rows.first == 0 {
@@ -118,7 +120,7 @@ impl<N: AsMut<[f32]>, W: AsMut<[u32]>, D: Dispatch> Multigrid<N, W, D> {
             }
         };
         self.end = core::cmp::max(self.end, self.place);
-        Preconditioner::new(system, &shape, kept, pool, self.dispatch).ok_or(short)
+        to.build(system, &shape, kept, pool).ok_or(short)
     }
 
     /// z = B r, one cycle for a system's A, B ≈ A⁻¹; answers rᵀz. For tests and for other iterations.
@@ -131,7 +133,9 @@ impl<N: AsMut<[f32]>, W: AsMut<[u32]>, D: Dispatch> Multigrid<N, W, D> {
         r: &[Vec3<T>],
         z: &mut [Vec3<T>],
     ) -> Result<T, StepError> {
-        Ok(self.prepare(system)?.apply(r, preconditioner::largest(r), z))
+        let mut prepared = Preconditioner::empty(self.dispatch);
+        self.prepare(system, &mut prepared)?;
+        Ok(prepared.apply(r, preconditioner::largest(r), z))
     }
 
     /// Visits all levels of a system's hierarchy, the finest first: its blocks as [`System::blocks`] does, divided by a
@@ -144,7 +148,8 @@ impl<N: AsMut<[f32]>, W: AsMut<[u32]>, D: Dispatch> Multigrid<N, W, D> {
         system: &System<'_, T, F>,
         mut visit: impl FnMut(usize, LevelPart),
     ) -> Result<T, StepError> {
-        let prepared = self.prepare(system)?;
+        let mut prepared = Preconditioner::empty(self.dispatch);
+        self.prepare(system, &mut prepared)?;
         prepared.inspect(&mut visit);
         Ok(T::ONE / prepared.scale())
     }
@@ -166,7 +171,8 @@ impl<T: Real, N: AsMut<[f32]>, W: AsMut<[u32]>, D: Dispatch> Solver<T> for Multi
         stop: &Stop<T>,
     ) -> Result<Solve<T>, StepError> {
         let Problem { system, vectors, free, .. } = problem;
-        let mut preconditioner = self.prepare(&system)?;
+        let mut preconditioner = Preconditioner::empty(self.dispatch);
+        self.prepare(&system, &mut preconditioner)?;
         Ok(pcg::solve_by(&system, &mut preconditioner, vectors, stop, free))
     }
 }

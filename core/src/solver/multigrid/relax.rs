@@ -76,6 +76,7 @@ impl Level<'_> {
 
     /// d = a d + c D⁻¹r, x += d in these rows.
     #[inline(always)]
+    #[expect(clippy::large_stack_frames)] // Tiles live in registers; each is counted.
     fn smooth(&mut self, first: usize, end: usize, (a, c): Step) {
         let end = if end < self.mass.len() { end } else { self.mass.len() };
         let tiles = (end - first) / WIDTH;
@@ -266,7 +267,7 @@ fn columns6([a, b, c, d, e, f]: [&[Tile]; 6]) -> impl Iterator<Item = [Tile; 6]>
 }
 
 #[inline(always)]
-fn columns_mut<'t>([x, y, z]: [&'t mut [Tile]; 3]) -> impl Iterator<Item = [&'t mut Tile; 3]> {
+fn columns_mut([x, y, z]: [&mut [Tile]; 3]) -> impl Iterator<Item = [&mut Tile; 3]> {
     x.iter_mut().zip(y).zip(z).map(|((x, y), z)| [x, y, z])
 }
 
