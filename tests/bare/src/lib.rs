@@ -14,6 +14,7 @@ mod equations;
 mod forces;
 mod integrator;
 mod measuring;
+mod multigrid;
 mod snapshots;
 mod stepping;
 mod system;
