@@ -2,7 +2,7 @@
 //! and memory, registers, other islands or an earlier pattern touch no bit.
 
 use hooke::solver::LevelPart;
-use hooke::{BlockJacobi, Multigrid, Portable, Real, Report, Solver, StepError};
+use hooke::{BlockJacobi, Multigrid, Operator, Portable, Real, Report, Solver, StepError};
 use hooke_harness::host::Host;
 use hooke_tests::build::{self, Forces};
 use hooke_tests::data::{PointData, SceneData};
@@ -25,10 +25,12 @@ fn moved(mut data: SceneData, steps: usize) -> SceneData {
     data
 }
 
-/// A cloth with pins in its midst and a point spring.
+/// A cloth with a pin in its midst, a point spring, drag and damping.
 fn held(n: usize) -> SceneData {
     let mut data = generate::cloth(n);
     data.pinned[n * n / 2] = true;
+    data.drag = 0.1;
+    data.springs.iter_mut().enumerate().for_each(|(j, spring)| spring.c = 0.01 * (j % 3) as f64);
     data.points.push(PointData { particle: n + 1, target: [0.3, 0.4, 0.1], k: 40.0, l0: 0.1 });
     data
 }
@@ -176,7 +178,7 @@ fn iterations(n: usize) -> (u32, u32) {
     for _ in 0..6 {
         data = moved(data, if most == 0 { 15 } else { 3 });
         let count = |found: Vec<(Vec<[u64; 6]>, Report<f64>)>| {
-            assert!(found[0].1.is_certified());
+            assert_eq!(found[0].1.capped + found[0].1.stalled + found[0].1.at_floor, 0);
             found[0].1.iterations
         };
         most = most.max(count(walk(&mut build::scene(&data), &data, 1e-6, multigrid(&data), 1)));
@@ -196,16 +198,33 @@ fn iterations_hardly_grow_with_the_cloth() {
     }
 }
 
+/// Both bounds hold on nets of several levels: ‖e‖_A of one step against a much finer solve, which is off by no more than its
+/// own bound.
 #[test]
-fn multigrid_solves_what_the_plain_solver_solves() {
-    let data = held(12);
-    let expected = walk::<f64>(&mut build::scene(&data), &data, 1e-12, BlockJacobi, 15);
-    let found = walk::<f64>(&mut build::scene(&data), &data, 1e-12, multigrid(&data), 15);
-    for ((a, expected), (b, found)) in expected.iter().zip(&found) {
-        assert_eq!((found.clamped, found.certified), (expected.clamped, expected.certified));
-        for (a, b) in a.iter().flatten().zip(b.iter().flatten()) {
-            let (a, b) = (f64::from_bits(*a), f64::from_bits(*b));
-            assert!((a - b).abs() <= allowed::TRAJECTORY, "{a} {b}");
+fn a_step_differs_from_a_finer_one_of_the_plain_solver_by_what_the_bounds_say() {
+    for data in nets() {
+        let fine = |scene: &mut VecScene<f64>| walk(scene, &data, 1e-10, BlockJacobi, 1).remove(0).1;
+        let mut reference = build::scene::<f64>(&data);
+        let reference_error = fine(&mut reference).upper.sqrt();
+        for r in [1e-1, 1e-3, 1e-6] {
+            let mut scene = build::scene::<f64>(&data);
+            let (_, report) = walk(&mut scene, &data, r, multigrid(&data), 1).remove(0);
+            let mut error = 0.0;
+            with_system::<f64>(&data, |system, rows| {
+                let particle = |row: usize| system.particle(row).unwrap();
+                let e: Vec<[f64; 3]> = (0..rows)
+                    .map(|row| {
+                        let (a, b) =
+                            (scene.velocities()[particle(row)], reference.velocities()[particle(row)]);
+                        [a[0] - b[0], a[1] - b[1], a[2] - b[2]]
+                    })
+                    .collect();
+                error = (0.5 * system.apply(&e, &mut vec![[0.0; 3]; rows])).sqrt();
+            });
+            // Both velocities are rounded: u·|v|, far below the bound.
+            assert!(error <= report.upper.sqrt() + 2.0 * reference_error, "{error:e} {report:?}");
+            assert!(error + 2.0 * reference_error >= report.lower.sqrt(), "{error:e} {report:?}");
+            assert_eq!(report.capped + report.stalled, 0, "{report:?}");
         }
     }
 }

@@ -13,7 +13,7 @@ use crate::real::Real;
 use crate::vec3;
 
 /// At most so many levels.
-pub(super) const LEVELS: usize = 10;
+pub(super) const LEVELS: usize = 7;
 /// An island or level of so few rows is solved by dense factors.
 pub(super) const DENSE: usize = 24;
 /// Unknowns of the largest dense matrix.
@@ -114,6 +114,7 @@ pub(super) fn fingerprint(own: &[u32], other: &[u32]) -> [u32; 2] {
 
 /// Makes an island's hierarchy: record, springs' slots and levels go to `kept`. `None` if the room is too small.
 #[inline(never)]
+#[expect(clippy::large_stack_frames)] // Slices by the dozen, of which few live at a time.
 pub(super) fn analyse<T: Real>(
     matrix: &Matrix<'_, T>,
     fingerprint: [u32; 2],

@@ -55,6 +55,10 @@ pub struct Multigrid<N, W, D = Portable> {
     dispatch: D,
     /// Where the next island's hierarchy is kept
     place: usize,
+    /// Where the last one's ends
+    end: usize,
+    /// May what later islands kept have been written over?
+    spoilt: bool,
 }
 
 impl Multigrid<(), ()> {
@@ -71,20 +75,22 @@ impl<N, W, D: Dispatch> Multigrid<N, W, D> {
     /// A solver in this workspace; [`Multigrid::needs`] says how large it is to be. If it is too small, a step fails with
     /// [`StepError::Workspace`], which says so too.
     pub const fn new(numbers: N, words: W, dispatch: D) -> Self {
-        Self { numbers, words, dispatch, place: 0 }
+        Self { numbers, words, dispatch, place: 0, end: 0, spoilt: false }
     }
 }
 
 impl<N: AsMut<[f32]>, W: AsMut<[u32]>, D: Dispatch> Multigrid<N, W, D> {
-    /// The hierarchy of a system: known from an earlier step or found, with the system's numbers.
-    fn prepare<T: Real, F: Force<T>>(
-        &mut self,
+    /// The hierarchy of a system, known from an earlier step or found, with the system's numbers, into `to`.
+    #[inline(never)]
+    fn prepare<'a, T: Real, F: Force<T>>(
+        &'a mut self,
         system: &System<'_, T, F>,
-    ) -> Result<Preconditioner<'_, T, D>, StepError> {
+        to: &mut Preconditioner<'a, T, D>,
+    ) -> Result<(), StepError> {
         let matrix = system.matrix;
         let (rows, springs) = (matrix.own.len(), matrix.other.len());
         if matrix.rows.first == 0 {
-            self.place = 0;
+            (self.place, self.spoilt) = (0, false);
         }
         let (kept, worked_in) =
             (analysis::words_kept(rows, springs), analysis::words_worked_in(rows, springs));
@@ -92,21 +98,29 @@ impl<N: AsMut<[f32]>, W: AsMut<[u32]>, D: Dispatch> Multigrid<N, W, D> {
         let words = self.place + kept + worked_in;
         let short = StepError::Workspace { numbers, words };
         let pool = self.numbers.as_mut().get_mut(..numbers).ok_or(short)?;
-        // What is kept lies in front, what is soon forgotten at the back, so that no island spoils another's.
+        // What is kept lies in front, what is soon forgotten at the back, where it can spoil what later islands keep only
+        // if there is less room than the whole scene needs.
         let room = self.words.as_mut();
         let back = room.len().checked_sub(worked_in).filter(|_| words <= room.len()).ok_or(short)?;
         let (front, scratch) = room.split_at_mut_checked(back).ok_or(short)?;
-        let place = if rows > DENSE { self.place } else { back - kept };
+        let keeps = rows > DENSE;
+        let place = if keeps { self.place } else { back - kept };
+        let forgotten_from = if keeps { back } else { place };
         let kept = front.get_mut(place..place + kept).ok_or(short)?;
-        if rows > DENSE {
+        if keeps {
             self.place += kept.len();
         }
         let fingerprint = analysis::fingerprint(matrix.own, matrix.other);
-        let shape = match analysis::recall(kept, fingerprint, rows, springs) {
+        let known = analysis::recall(kept, fingerprint, rows, springs).filter(|_| keeps && !self.spoilt);
+        let shape = match known {
             Some(shape) => shape,
-            None => analysis::analyse(matrix, fingerprint, kept, scratch, pool).ok_or(short)?,
+            None => {
+                self.spoilt |= forgotten_from < self.end;
+                analysis::analyse(matrix, fingerprint, kept, scratch, pool).ok_or(short)?
+            }
         };
-        Preconditioner::new(system, &shape, kept, pool, self.dispatch).ok_or(short)
+        self.end = core::cmp::max(self.end, self.place);
+        to.build(system, &shape, kept, pool).ok_or(short)
     }
 
     /// z = B r, one cycle for a system's A, B ≈ A⁻¹; answers rᵀz. For tests and for other iterations.
@@ -119,7 +133,9 @@ impl<N: AsMut<[f32]>, W: AsMut<[u32]>, D: Dispatch> Multigrid<N, W, D> {
         r: &[Vec3<T>],
         z: &mut [Vec3<T>],
     ) -> Result<T, StepError> {
-        Ok(self.prepare(system)?.apply(r, preconditioner::largest(r), z))
+        let mut prepared = Preconditioner::empty(self.dispatch);
+        self.prepare(system, &mut prepared)?;
+        Ok(prepared.apply(r, preconditioner::largest(r), z))
     }
 
     /// Visits all levels of a system's hierarchy, the finest first: its blocks as [`System::blocks`] does, divided by a
@@ -132,7 +148,8 @@ impl<N: AsMut<[f32]>, W: AsMut<[u32]>, D: Dispatch> Multigrid<N, W, D> {
         system: &System<'_, T, F>,
         mut visit: impl FnMut(usize, LevelPart),
     ) -> Result<T, StepError> {
-        let prepared = self.prepare(system)?;
+        let mut prepared = Preconditioner::empty(self.dispatch);
+        self.prepare(system, &mut prepared)?;
         prepared.inspect(&mut visit);
         Ok(T::ONE / prepared.scale())
     }
@@ -154,7 +171,8 @@ impl<T: Real, N: AsMut<[f32]>, W: AsMut<[u32]>, D: Dispatch> Solver<T> for Multi
         stop: &Stop<T>,
     ) -> Result<Solve<T>, StepError> {
         let Problem { system, vectors, free, .. } = problem;
-        let mut preconditioner = self.prepare(&system)?;
+        let mut preconditioner = Preconditioner::empty(self.dispatch);
+        self.prepare(&system, &mut preconditioner)?;
         Ok(pcg::solve_by(&system, &mut preconditioner, vectors, stop, free))
     }
 }

@@ -28,26 +28,36 @@ pub(super) struct Preconditioner<'a, T, D> {
 }
 
 impl<'a, T: Real, D: Dispatch> Preconditioner<'a, T, D> {
+    /// Without levels. It is large, so it is built where it lies.
+    #[inline(always)]
+    #[expect(clippy::large_stack_frames)] // Three parts of one another are counted three times.
+    pub(super) fn empty(dispatch: D) -> Self {
+        let dense = Dense::new(&mut [], 0);
+        let levels = [const { None }; LEVELS];
+        Self { scale: T::ZERO, hierarchy: Hierarchy { levels, count: 0, dense }, dispatch }
+    }
+
+    /// All levels with the system's numbers; `None` if there is too little room.
     #[inline(never)]
-    // A table of levels of fixed length, 4.5 KiB: a solver for hosts; the budgets name its stack.
-    #[allow(clippy::large_stack_frames)]
-    pub(super) fn new<F: Force<T>>(
+    pub(super) fn build<F: Force<T>>(
+        &mut self,
         system: &System<'_, T, F>,
         shape: &Shape,
         mut kept: &'a mut [u32],
         mut pool: &'a mut [f32],
-        dispatch: D,
-    ) -> Option<Self> {
+    ) -> Option<()> {
         let slot_of = analysis::skip_record(&mut kept, system.matrix.other.len())?;
-        let scale = T::ONE / galerkin::largest(system);
+        self.scale = T::ONE / galerkin::largest(system);
+        let Hierarchy { levels, count, dense } = &mut self.hierarchy;
+        *count = shape.levels;
         let coarsest = shape.size.get(shape.levels.checked_sub(1)?)?.rows;
-        let mut dense = Dense::new(take(&mut pool, UNKNOWNS * UNKNOWNS)?, coarsest);
-        let mut levels = [const { None }; LEVELS];
+        *dense = Dense::new(take(&mut pool, UNKNOWNS * UNKNOWNS)?, coarsest);
         let mut finer: Option<&mut Level<'_>> = None;
         for (level, size) in levels.iter_mut().zip(&shape.size).take(shape.levels) {
-            let level = level.insert(Level::carve(&mut kept, &mut pool, *size)?);
+            *level = Level::carve(&mut kept, &mut pool, *size);
+            let level = level.as_mut()?;
             match finer {
-                None => level.fill(system, slot_of, scale),
+                None => level.fill(system, slot_of, self.scale),
                 Some(fine) => level.coarsen(fine),
             }
             finer = Some(level);
@@ -57,7 +67,7 @@ impl<'a, T: Real, D: Dispatch> Preconditioner<'a, T, D> {
             coarsest.each_block(|a, b, block| dense.add(a, b, block));
             dense.factor();
         }
-        Some(Self { scale, hierarchy: Hierarchy { levels, count: shape.levels, dense }, dispatch })
+        Some(())
     }
 
     /// z = B r, `most` the largest component of r; answers rᵀz.
