@@ -52,23 +52,23 @@ impl Level<'_> {
     #[inline(never)]
     fn restrict(&self, coarse: &mut Level<'_>) {
         coarse.r.clear();
-        for (i, aggregate) in self.pattern.aggregate.iter().enumerate() {
-            coarse.r.add(*aggregate as usize, self.r.at(i));
+        let [x, y, z] = &self.r.0;
+        let rows = x.iter().zip(y.iter()).zip(z.iter());
+        for (aggregate, ((x, y), z)) in self.pattern.aggregate.iter().zip(rows) {
+            coarse.r.add(*aggregate as usize, [*x, *y, *z]);
         }
     }
 
     /// d = ω P x of the next level; x += d.
     #[inline(never)]
     fn prolong(&mut self, coarse: &Level<'_>) {
-        for (i, aggregate) in self.pattern.aggregate.iter().enumerate() {
-            let [x, y, z] = coarse.x.at(*aggregate as usize);
-            let correction = [OVER * x, OVER * y, OVER * z];
-            for (plane, value) in self.d.0.iter_mut().zip(correction) {
-                if let Some(place) = plane.get_mut(i) {
-                    *place = value;
-                }
-            }
-            self.x.add(i, correction);
+        let ([dx, dy, dz], [x, y, z]) = (&mut self.d.0, &mut self.x.0);
+        let d = dx.iter_mut().zip(dy.iter_mut()).zip(dz.iter_mut());
+        let x = x.iter_mut().zip(y.iter_mut()).zip(z.iter_mut());
+        for (aggregate, (((dx, dy), dz), ((x, y), z))) in self.pattern.aggregate.iter().zip(d.zip(x)) {
+            let [cx, cy, cz] = coarse.x.at(*aggregate as usize);
+            (*dx, *dy, *dz) = (OVER * cx, OVER * cy, OVER * cz);
+            (*x, *y, *z) = (*x + *dx, *y + *dy, *z + *dz);
         }
     }
 
