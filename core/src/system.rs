@@ -17,6 +17,7 @@
 use crate::force::Force;
 use crate::hessian::Hessian;
 use crate::lanes::Lanes;
+use crate::memory::{part, part_mut};
 use crate::parts::Matrix;
 use crate::real::Real;
 use crate::sym3::Sym3;
@@ -50,13 +51,17 @@ impl<T: Real, F: Force<T>> System<'_, T, F> {
     #[inline(never)] // One copy, with a frame of its own.
     pub(crate) fn add_product(&self, x: &[Vec3<T>], y: &mut [Vec3<T>]) -> T {
         let mut form = Lanes::new();
+        // One length for both, so that one comparison says where an end is.
+        let rows = core::cmp::min(x.len(), y.len());
+        let (x, y) = (part(x, 0..rows), part_mut(y, 0..rows));
         let mut springs = self.matrix.other.iter().zip(self.matrix.hessian.iter());
         for (row, ((own, m), x_a)) in
             self.matrix.own.iter().zip(self.matrix.inertia.iter()).zip(x).enumerate()
         {
             let mut energy = *m * vec3::dot(*x_a, *x_a);
             let mut sum = y.get(row).map_or([T::ZERO; 3], |y| vec3::add_scaled(*y, *m, *x_a));
-            for (other, h) in springs.by_ref().take(*own as usize) {
+            for _ in 0..*own {
+                let Some((other, h)) = springs.next() else { break };
                 let other = *other as usize;
                 // A pin does not move.
                 let delta = x.get(other).map_or(*x_a, |x_b| vec3::sub(*x_a, *x_b));

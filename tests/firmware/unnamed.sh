@@ -1,7 +1,7 @@
 # shellcheck shell=bash
 # A feature that a program does not name costs it nothing: the minimal program is the same, byte for byte, when core has
-# no trace of drag, spring damping, point forces, point springs, cables, snapshots, reactions, energies, momenta and the
-# stiffness matrix. Sourced by check.sh.
+# no trace of drag, spring damping, point forces, point springs, cables, snapshots, reactions, energies, momenta, the
+# stiffness matrix, and any solver but its own. Sourced by check.sh.
 
 # Takes the features out of a copy of core's sources.
 without_features() {
@@ -11,6 +11,10 @@ without_features() {
     sed -i -E '/^(pub )?(mod|use) (snapshot|reaction|energy|momentum|stiffness)\b/d' "$source/lib.rs"
     sed -i -E 's/^(pub use force::).*$/\1{Force, Gravity};/' "$source/lib.rs"
     sed -i -E '/^(pub )?(mod|use) (drag|damping|point_force|point_spring)\b/d' "$source/force/mod.rs"
+    rm -r "$source"/{wide,solver/multigrid} "$source"/solver/{banded_ldl,chain,direct,elimination,panel,pivot,sparse_ldl,supernodes}.rs
+    sed -i -E '/^(pub )?(mod|use) (wide|multigrid|banded_ldl|chain|direct|elimination|panel|pivot|sparse_ldl|supernodes)\b/d' \
+        "$source/lib.rs" "$source/solver/mod.rs"
+    sed -i -E 's/^(pub use solver::).*$/\1{BlockJacobi, Jacobi, Preconditioner, Solver, Stop};/' "$source/lib.rs"
     # Comments too: what they belong to is gone.
     sed -i -E '/^ *\/\/\//d; /^use crate::energy/d; /^    pub fn (springs|reaction)\b/,/^    }/d' "$source/scene.rs"
     sed -i -E '/^impl<M: Memory<Law = Mixed>>/,/^}/d; /^use crate::law::Mixed/d' "$source/edit.rs"

@@ -106,9 +106,13 @@ impl Layout {
         if self.distances().get(at) == Some(&d) {
             return Some(());
         }
-        let tail = self.distance.get_mut(at..=self.runs)?;
-        tail.rotate_right(1);
-        *tail.first_mut()? = d;
+        if self.runs == MOST_RUNS {
+            return None;
+        }
+        let mut carried = d;
+        for place in self.distance.iter_mut().take(self.runs + 1).skip(at) {
+            core::mem::swap(place, &mut carried);
+        }
         self.runs += 1;
         Some(())
     }

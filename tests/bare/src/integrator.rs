@@ -1,7 +1,8 @@
 //! Making a method, and reading its report.
 
 use hooke::{
-    BlockJacobi, Drag, Gravity, Integrator, Motion, Parts, Report, Solve, Solver, StepError, Stop, solver::Problem,
+    BlockJacobi, Drag, Gravity, Integrator, Motion, Parts, Report, Solve, Solver, StepError, Stop,
+    solver::Problem,
 };
 
 use crate::shared::*;

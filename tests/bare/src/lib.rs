@@ -19,6 +19,7 @@ mod snapshots;
 mod stepping;
 mod system;
 mod vectors;
+mod wide;
 
 unsafe extern "C" {
     fn hooke_panicked() -> !;

@@ -37,7 +37,7 @@ pub(super) struct Hierarchy<'a> {
 
 impl Level<'_> {
     /// Two steps from x and its residual r; leaves the residual before the second step's, and that step in d.
-    fn begin(&mut self, dispatch: impl Dispatch) {
+    fn smooth_from_zero(&mut self, dispatch: impl Dispatch) {
         self.start(dispatch, FIRST);
         self.relax(dispatch, Some((KEEP, STEP)));
     }
@@ -75,7 +75,7 @@ impl Level<'_> {
     /// x = A⁻¹ r, or two steps towards it.
     fn solve(&mut self, dense: &Dense<'_>, dispatch: impl Dispatch) {
         if !dense.sound {
-            self.begin(dispatch);
+            self.smooth_from_zero(dispatch);
             return;
         }
         let mut y = [0.0; UNKNOWNS];
@@ -100,7 +100,7 @@ impl<'a> Hierarchy<'a> {
             while l < last {
                 let Some((fine, coarse)) = self.pair(l) else { return };
                 if second & (1 << l) == 0 {
-                    fine.begin(dispatch);
+                    fine.smooth_from_zero(dispatch);
                 } else {
                     fine.go_on(dispatch);
                 }
