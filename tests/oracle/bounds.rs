@@ -163,16 +163,19 @@ fn the_true_error_lies_between_the_bounds_in_f32() {
     met(&true_error_lies_between_the_bounds::<f32, _>("f32", 32, |_| BlockJacobi));
 }
 
-/// A cycle is nearly exact on nets so small that all of them is the coarsest level: few solves are cut short.
-fn met_by_multigrid(seen: &Seen) {
-    assert!(seen.clamped > SYSTEMS / 50 && seen.floor > SYSTEMS / 50);
+/// On nets so small all is the coarsest level, which f32 factors solve: in f64 some iterations are left to do, in f32 only
+/// rounding is left, in which an error can hardly be recognised.
+#[test]
+fn the_true_error_of_multigrid_lies_between_the_bounds_in_f64() {
+    let seen = true_error_lies_between_the_bounds::<f64, _>("multigrid f64", 642, multigrid);
+    assert!(seen.clamped > SYSTEMS / 50 && seen.capped > SYSTEMS / 50 && seen.floor > SYSTEMS / 50);
     assert!(seen.tightness.len() > SYSTEMS / 3, "{} lower bounds", seen.tightness.len());
 }
 
 #[test]
-fn the_true_error_of_multigrid_lies_between_the_bounds() {
-    met_by_multigrid(&true_error_lies_between_the_bounds::<f64, _>("multigrid f64", 642, multigrid));
-    met_by_multigrid(&true_error_lies_between_the_bounds::<f32, _>("multigrid f32", 322, multigrid));
+fn the_true_error_of_multigrid_lies_between_the_bounds_in_f32() {
+    let seen = true_error_lies_between_the_bounds::<f32, _>("multigrid f32", 322, multigrid);
+    assert!(seen.clamped > SYSTEMS / 50 && seen.floor > SYSTEMS / 50);
 }
 
 /// Direct solves leave rounding only; some of it is to be recognised as an error that is there.

@@ -1,29 +1,30 @@
-//! Multigrid: made, in a step, and looked into.
+//! Aggregation multigrid.
 
-use hooke::{Multigrid, Portable, Solve, Solver, StepError, Stop, solver::LevelPart, solver::Problem};
+use hooke::{Multigrid, Portable, Solve, Solver, StepError, Stop, solver::Problem};
 
 use crate::shared::*;
 
-type Own<'a> = Multigrid<&'a mut [f32], &'a mut [u32]>;
+/// The solver in borrowed memory.
+type Borrowed<'a> = Multigrid<&'a mut [f32], &'a mut [u32]>;
 
 crate::entry_point::entry_points! {
-    Multigrid::needs(particles: usize, springs: usize) -> (usize, usize) { Multigrid::needs(particles, springs) }
-    Multigrid::new<'a>(numbers: &'a mut [f32], words: &'a mut [u32]) -> Own<'a> {
+    Multigrid::new<'a>(numbers: &'a mut [f32], words: &'a mut [u32], _unused: T) -> Borrowed<'a> {
         Multigrid::new(numbers, words, Portable)
     }
-    Multigrid::apply(
-        solver: &mut Own<'_>, system: &Whole<'_, T>, r: &[V<T>], z: &mut [V<T>],
-    ) -> Result<T, StepError> {
-        solver.apply(system, r, z)
+    Multigrid::needs(particles: usize, springs: usize, _unused: T) -> (usize, usize) {
+        Multigrid::needs(particles, springs)
     }
-    Multigrid::inspect(
-        solver: &mut Own<'_>, system: &Whole<'_, T>, visit: &mut dyn FnMut(usize, LevelPart),
+    Multigrid::apply(
+        grid: &mut Borrowed<'_>, system: &Whole<'_, T>, r: &[V<T>], z: &mut [V<T>],
     ) -> Result<T, StepError> {
-        solver.inspect(system, visit)
+        grid.apply(system, r, z)
+    }
+    Multigrid::inspect(grid: &mut Borrowed<'_>, system: &Whole<'_, T>, seen: &mut usize) -> Result<T, StepError> {
+        grid.inspect(system, |level, _| *seen += level)
     }
     Solver::solve[multigrid](
-        solver: &mut Own<'_>, problem: Problem<'_, '_, T, All<'_, T>>, stop: &Stop<T>,
+        grid: &mut Borrowed<'_>, problem: Problem<'_, '_, T, All<'_, T>>, stop: &Stop<T>,
     ) -> Result<Solve<T>, StepError> {
-        solver.solve(problem, stop)
+        grid.solve(problem, stop)
     }
 }

@@ -114,7 +114,6 @@ pub(super) fn fingerprint(own: &[u32], other: &[u32]) -> [u32; 2] {
 
 /// Makes an island's hierarchy: record, springs' slots and levels go to `kept`. `None` if the room is too small.
 #[inline(never)]
-#[expect(clippy::large_stack_frames)] // Slices by the dozen, of which few live at a time.
 pub(super) fn analyse<T: Real>(
     matrix: &Matrix<'_, T>,
     fingerprint: [u32; 2],

@@ -37,7 +37,7 @@ pub(super) struct Hierarchy<'a> {
 
 impl Level<'_> {
     /// Two steps from x and its residual r; leaves the residual before the second step's, and that step in d.
-    fn begin(&mut self, dispatch: impl Dispatch) {
+    fn smooth_from_zero(&mut self, dispatch: impl Dispatch) {
         self.start(dispatch, FIRST);
         self.relax(dispatch, Some((KEEP, STEP)));
     }
@@ -52,30 +52,30 @@ impl Level<'_> {
     #[inline(never)]
     fn restrict(&self, coarse: &mut Level<'_>) {
         coarse.r.clear();
-        for (i, aggregate) in self.pattern.aggregate.iter().enumerate() {
-            coarse.r.add(*aggregate as usize, self.r.at(i));
+        let [x, y, z] = &self.r.0;
+        let rows = x.iter().zip(y.iter()).zip(z.iter());
+        for (aggregate, ((x, y), z)) in self.pattern.aggregate.iter().zip(rows) {
+            coarse.r.add(*aggregate as usize, [*x, *y, *z]);
         }
     }
 
     /// d = ω P x of the next level; x += d.
     #[inline(never)]
     fn prolong(&mut self, coarse: &Level<'_>) {
-        for (i, aggregate) in self.pattern.aggregate.iter().enumerate() {
-            let [x, y, z] = coarse.x.at(*aggregate as usize);
-            let correction = [OVER * x, OVER * y, OVER * z];
-            for (plane, value) in self.d.0.iter_mut().zip(correction) {
-                if let Some(place) = plane.get_mut(i) {
-                    *place = value;
-                }
-            }
-            self.x.add(i, correction);
+        let ([dx, dy, dz], [x, y, z]) = (&mut self.d.0, &mut self.x.0);
+        let d = dx.iter_mut().zip(dy.iter_mut()).zip(dz.iter_mut());
+        let x = x.iter_mut().zip(y.iter_mut()).zip(z.iter_mut());
+        for (aggregate, (((dx, dy), dz), ((x, y), z))) in self.pattern.aggregate.iter().zip(d.zip(x)) {
+            let [cx, cy, cz] = coarse.x.at(*aggregate as usize);
+            (*dx, *dy, *dz) = (OVER * cx, OVER * cy, OVER * cz);
+            (*x, *y, *z) = (*x + *dx, *y + *dy, *z + *dz);
         }
     }
 
     /// x = A⁻¹ r, or two steps towards it.
     fn solve(&mut self, dense: &Dense<'_>, dispatch: impl Dispatch) {
         if !dense.sound {
-            self.begin(dispatch);
+            self.smooth_from_zero(dispatch);
             return;
         }
         let mut y = [0.0; UNKNOWNS];
@@ -100,7 +100,7 @@ impl<'a> Hierarchy<'a> {
             while l < last {
                 let Some((fine, coarse)) = self.pair(l) else { return };
                 if second & (1 << l) == 0 {
-                    fine.begin(dispatch);
+                    fine.smooth_from_zero(dispatch);
                 } else {
                     fine.go_on(dispatch);
                 }

@@ -219,7 +219,6 @@ fn reciprocal(a: Tile, bad: &mut [bool; WIDTH]) -> Tile {
 
 /// Inverts eight blocks at a time as [`Sym3::inverse`] does one; a block that is not positive becomes its largest entry's.
 #[inline(never)]
-#[expect(clippy::large_stack_frames)] // Tiles live in registers; each is counted.
 fn invert(planes: &mut [&mut [f32]; 6], rows: usize) {
     let mut i = 0;
     while i < rows {

@@ -76,7 +76,6 @@ impl Level<'_> {
 
     /// d = a d + c D⁻¹r, x += d in these rows.
     #[inline(always)]
-    #[expect(clippy::large_stack_frames)] // Tiles live in registers; each is counted.
     fn smooth(&mut self, first: usize, end: usize, (a, c): Step) {
         let end = if end < self.mass.len() { end } else { self.mass.len() };
         let tiles = (end - first) / WIDTH;
