@@ -25,6 +25,7 @@ pub mod point_spring;
 pub mod rope;
 pub mod slices;
 pub mod snapshot;
+pub mod solvers;
 pub mod spring_damping;
 
 pub use digest::Digest;
@@ -69,4 +70,12 @@ pub static ALL: &[Job] = &[
     cut_short::F64,
     measures::F32,
     measures::F64,
+    solvers::BANDED_F32,
+    solvers::BANDED_F64,
+    solvers::SPARSE_F32,
+    solvers::SPARSE_F64,
+    solvers::WIDE_F32,
+    solvers::WIDE_F64,
+    solvers::MULTIGRID_F32,
+    solvers::MULTIGRID_F64,
 ];

@@ -1,0 +1,77 @@
+//! The 8×8 cloth by each solver that is not the default, in a workspace of its own: every one has its golden bits.
+
+use hooke::{
+    BandedLdl, Hookean, LinearlyImplicitEuler, MassSpring, Memory, Multigrid, Portable, Scene, Solver,
+    SparseLdl, WideJacobi,
+};
+use static_cell::ConstStaticCell;
+
+use crate::job::Job;
+use crate::outcome::{Outcome, expect};
+use crate::scenes::{self, cloth_springs, dt, gravity};
+use crate::trace::Trace;
+
+const SIDE: usize = 8;
+const PARTICLES: usize = SIDE * SIDE;
+const SPRINGS: usize = cloth_springs(SIDE);
+type Cloth<T> = Scene<T, PARTICLES, SPRINGS, Hookean>;
+
+/// The farthest that a spring of the cloth reaches, and what that needs.
+const BANDED: usize = BandedLdl::needs(PARTICLES, SIDE + 1);
+const GRID: (usize, usize) = Multigrid::needs(PARTICLES, SPRINGS);
+/// Numbers and words of the others: more than they need.
+const NUMBERS: usize = 8192;
+const WORDS: usize = 4096;
+
+/// A static list of zeros.
+macro_rules! zeros {
+    ($t:ty, $n:expr) => {{
+        static LIST: ConstStaticCell<[$t; $n]> = ConstStaticCell::new([0 as $t; $n]);
+        LIST.take().as_mut_slice()
+    }};
+}
+
+macro_rules! job {
+    ($job:ident, $t:ident, $name:literal, $solver:expr) => {
+        #[doc = concat!("The solver ", $name, " in `", stringify!($t), "`.")]
+        pub const $job: Job = {
+            static SCENE: ConstStaticCell<Cloth<$t>> = ConstStaticCell::new(Scene::new());
+            Job { name: $name, precision: stringify!($t), start: |trace| run(SCENE.take(), $solver, trace) }
+        };
+    };
+}
+
+job!(BANDED_F32, f32, "banded", BandedLdl::new(zeros!(f32, BANDED)));
+job!(BANDED_F64, f64, "banded", BandedLdl::new(zeros!(f64, BANDED)));
+job!(SPARSE_F32, f32, "sparse", SparseLdl::new(backwards(), zeros!(f32, NUMBERS), zeros!(u32, WORDS)));
+job!(SPARSE_F64, f64, "sparse", SparseLdl::new(backwards(), zeros!(f64, NUMBERS), zeros!(u32, WORDS)));
+job!(WIDE_F32, f32, "wide", WideJacobi::new(zeros!(f32, NUMBERS), zeros!(u32, WORDS), Portable));
+job!(WIDE_F64, f64, "wide", WideJacobi::new(zeros!(f64, NUMBERS), zeros!(u32, WORDS), Portable));
+job!(MULTIGRID_F32, f32, "multigrid", Multigrid::new(zeros!(f32, GRID.0), zeros!(u32, GRID.1), Portable));
+job!(MULTIGRID_F64, f64, "multigrid", Multigrid::new(zeros!(f32, GRID.0), zeros!(u32, GRID.1), Portable));
+
+/// An order that is not the particles' own.
+fn backwards() -> [u32; PARTICLES] {
+    let mut order = [0; PARTICLES];
+    for (place, particle) in order.iter_mut().zip((0..PARTICLES as u32).rev()) {
+        *place = particle;
+    }
+    order
+}
+
+fn run<M: Memory, S: Solver<M::Real>>(
+    scene: &mut MassSpring<M>,
+    solver: S,
+    trace: &mut Trace<'_>,
+) -> Outcome {
+    scenes::cloth(scene, SIDE)?;
+    scene.pin(0)?;
+    scene.pin(SIDE - 1)?;
+    let mut euler = LinearlyImplicitEuler::new(dt()).gravity(gravity()).solver(solver);
+    for _ in 0..6 {
+        let report = scene.step(&mut euler)?;
+        expect(report.fallbacks == 0, "the solver's own answer")?;
+        trace.step(scene, &report)?;
+    }
+    Ok(())
+}
