@@ -45,7 +45,7 @@ pub struct WideJacobi<N, W, D = Portable> {
 }
 
 impl<N, W, D: Dispatch> WideJacobi<N, W, D> {
-    /// A solver in this workspace; [`WideJacobi::needs`] says how large it is to be. If it is too small, a step fails with
+    /// A solver in this workspace; [`WideJacobi::needs_of`] says how large it is to be. If it is too small, a step fails with
     /// [`StepError::Workspace`], which says so too.
     pub const fn new(numbers: N, words: W, dispatch: D) -> Self {
         Self { numbers, words, dispatch, layout: Layout::none(), found: false }
