@@ -55,7 +55,8 @@ bound_stack() {
     [ "$refused" = 2 ] || { echo "$1: $refused of 2 controls refused: the walk is blind"; return 1; }
     painted=$(awk '$1 == "painted" && $3 > most { most = $3 } END { print most }' "$dir/measured")
     bound=$("$judge" stack "$dir"/measure{,.list} firmware_image::stack::used | awk -F'\t' '$2 > most { most = $2 } END { print most }')
-    if [ "$painted" -gt "$bound" ] || [ "$bound" -gt $((2 * painted)) ]; then
+    # The paint begins within the frame of the function that counts it, which is not part of the bound: 32 bytes at most.
+    if [ "$painted" -gt $((bound + 32)) ] || [ "$bound" -gt $((2 * painted)) ]; then
         echo "$1: $painted bytes of stack painted, bound $bound"
         return 1
     fi
