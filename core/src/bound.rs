@@ -18,16 +18,20 @@
 use crate::force::Force;
 use crate::hessian::Hessian;
 use crate::lanes::Lanes;
-use crate::real::Real;
+use crate::real::{Number, Real};
 use crate::system::System;
 use crate::vec3::{self, Vec3};
 
-/// δ of one row from its running sum: u·(1 + 2⁻⁴)·g plus what underflow can lose.
+/// u·(1 + 2⁻⁴): a running sum times this, plus what underflow can lose, is δ.
+pub(crate) fn unit<T: Real>() -> T {
+    let sixteenth = T::HALF * T::HALF * T::HALF * T::HALF;
+    T::UNIT_ROUNDOFF * (T::ONE + sixteenth)
+}
+
+/// δ of one row from its running sum.
 #[inline(always)]
 fn delta<T: Real>(g: Vec3<T>) -> Vec3<T> {
-    let sixteenth = T::HALF * T::HALF * T::HALF * T::HALF;
-    let unit = T::UNIT_ROUNDOFF * (T::ONE + sixteenth);
-    vec3::map(g, |g| unit * g + T::MIN_POSITIVE)
+    vec3::map(g, |g| unit::<T>() * g + T::MIN_POSITIVE)
 }
 
 /// |a| by component.
@@ -38,7 +42,7 @@ fn magnitude<T: Real>(a: Vec3<T>) -> Vec3<T> {
 
 /// 7·(|α||d| + |w|(|w|·|d|)) by component: what the rounding of one spring's term H·d cannot exceed, in units of u.
 #[inline(always)]
-fn term_error<T: Real>(h: &Hessian<T>, d: Vec3<T>) -> Vec3<T> {
+pub(crate) fn term_error<T: Real>(h: &Hessian<T>, d: Vec3<T>) -> Vec3<T> {
     let (w, d) = (magnitude(h.w), magnitude(d));
     let along = vec3::dot(w, d) + T::MIN_POSITIVE;
     let seven = T::from_count(7);
@@ -95,7 +99,7 @@ pub(crate) fn residual<T: Real, F: Force<T>>(
 /// |r|²/μ of one row, `weight` = 1/μ. Multiplied in this order it neither underflows nor overflows where the square of
 /// r would.
 #[inline(always)]
-pub(crate) fn square<T: Real>(r: Vec3<T>, weight: T) -> T {
+pub(crate) fn square<T: Number>(r: Vec3<T>, weight: T) -> T {
     vec3::dot(vec3::scale(weight, r), r)
 }
 
@@ -145,7 +149,7 @@ pub(crate) fn attainable<T: Real, F: Force<T>>(
 }
 
 /// A factor and a term that cover the rounding and underflow of a sum of `n` non-negative terms.
-fn cover<T: Real>(n: usize) -> (T, T) {
+pub(crate) fn cover<T: Real>(n: usize) -> (T, T) {
     let n = T::from_count(n + 16);
     (T::ONE + T::TWO * n * T::UNIT_ROUNDOFF, n * T::MIN_POSITIVE)
 }
@@ -184,11 +188,16 @@ pub(crate) fn lower<T: Real, F: Force<T>>(
     t: &mut [Vec3<T>],
     error: &mut [Vec3<T>],
 ) -> T {
-    let (factor, term) = cover(3 * r.len());
-    let unit = factor - T::ONE;
-    let [rz, rz_size, loss] = products(r, error, z);
+    let of_r = products(r, error, z);
     residual(system, r, z, t, error);
-    let [tz, tz_size, spread] = products(t, error, z);
+    gain(r.len(), of_r, products(t, error, z))
+}
+
+/// The same from the sums of [`products`] over n rows, of r with δ and of t = r − Az with its own.
+pub(crate) fn gain<T: Real>(n: usize, of_r: [T; 3], of_t: [T; 3]) -> T {
+    let ([rz, rz_size, loss], [tz, tz_size, spread]) = (of_r, of_t);
+    let (factor, term) = cover(3 * n);
+    let unit = factor - T::ONE;
     let gain = rz - (loss * factor + unit * rz_size + term);
     let form = (rz - tz) + (spread * factor + unit * (rz_size + tz_size) + term);
     let form = form * factor;

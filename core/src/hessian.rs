@@ -13,7 +13,7 @@
 //!
 //! Source: the mass-spring lecture (Hessian of a spring).
 
-use crate::real::Real;
+use crate::real::{Number, Real};
 use crate::spring::{Spring, Stretched};
 use crate::vec3::{self, Vec3};
 
@@ -73,6 +73,13 @@ impl<T: Real> Hessian<T> {
         Self { alpha: T::ZERO, w: vec3::scale(w, stretched.direction) }
     }
 
+    /// H as a dense 3×3 matrix.
+    pub fn dense(&self) -> [[T; 3]; 3] {
+        crate::sym3::Sym3::scalar(self.alpha).plus_outer(self.w).dense()
+    }
+}
+
+impl<T: Number> Hessian<T> {
     /// H·d: one dot, one scatter.
     #[inline(always)]
     pub fn mul(&self, d: Vec3<T>) -> Vec3<T> {
@@ -89,11 +96,6 @@ impl<T: Real> Hessian<T> {
             self.alpha * d[2] + self.w[2] * along,
         ];
         (product, self.alpha * vec3::dot(d, d) + along * along)
-    }
-
-    /// H as a dense 3×3 matrix.
-    pub fn dense(&self) -> [[T; 3]; 3] {
-        crate::sym3::Sym3::scalar(self.alpha).plus_outer(self.w).dense()
     }
 }
 

@@ -17,6 +17,12 @@ impl<T: Real> Lanes<T> {
         Self([T::ZERO; LANES])
     }
 
+    /// Sums that were kept side by side.
+    #[inline(always)]
+    pub(crate) fn of(sums: [T; LANES]) -> Self {
+        Self(sums)
+    }
+
     /// Adds eight terms at once: of items 8k … 8k + 7.
     #[inline(always)]
     pub(crate) fn add_lane(&mut self, terms: [T; LANES]) {

@@ -14,6 +14,14 @@ mod sealed {
     impl Sealed for f64 {}
 }
 
+/// What has a sum, a difference, a product and a negative: a [`Real`], or several side by side.
+pub trait Number:
+    Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Neg<Output = Self>
+{
+}
+
+impl<X: Copy + Add<Output = X> + Sub<Output = X> + Mul<Output = X> + Neg<Output = X>> Number for X {}
+
 /// A floating-point precision: `f32` or `f64` (sealed).
 pub trait Real:
     sealed::Sealed
@@ -33,9 +41,9 @@ pub trait Real:
 {
     /// 0
     const ZERO: Self;
-    /// A tile of zeros.
+    /// Eight zeros.
     #[doc(hidden)]
-    const ZEROS: &'static [Self; 32];
+    const ZEROS: &'static [Self; 8];
     /// ½
     const HALF: Self;
     /// 1
@@ -93,7 +101,7 @@ macro_rules! real {
     ($t:ty, $sqrt:path, $tolerance:expr) => {
         impl Real for $t {
             const ZERO: Self = 0.0;
-            const ZEROS: &'static [Self; 32] = &[0.0; 32];
+            const ZEROS: &'static [Self; 8] = &[0.0; 8];
             const HALF: Self = 0.5;
             const ONE: Self = 1.0;
             const TWO: Self = 2.0;

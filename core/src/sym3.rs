@@ -3,20 +3,16 @@
 //! Six numbers, xx yy zz xy xz yz. The inverse goes through D = L Δ Lᵀ (pivots δ₁ δ₂ δ₃): D⁻¹ = L⁻ᵀ Δ⁻¹ L⁻¹ is a sum
 //! of three positive outer products, so with positive pivots it stays positive where cofactors would cancel.
 
-use crate::real::Real;
+use core::ops::Div;
+
+use crate::real::{Number, Real};
 use crate::vec3::Vec3;
 
 /// A symmetric 3×3 matrix: xx, yy, zz, xy, xz, yz.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Sym3<T>(pub [T; 6]);
 
-impl<T: Real> Sym3<T> {
-    /// s·I
-    #[inline(always)]
-    pub fn scalar(s: T) -> Self {
-        Self([s, s, s, T::ZERO, T::ZERO, T::ZERO])
-    }
-
+impl<T: Number> Sym3<T> {
     /// self + s·I
     #[inline(always)]
     pub fn plus_scalar(self, s: T) -> Self {
@@ -48,6 +44,14 @@ impl<T: Real> Sym3<T> {
             (xz * v[0] + yz * v[1]) + zz * v[2],
         ]
     }
+}
+
+impl<T: Real> Sym3<T> {
+    /// s·I
+    #[inline(always)]
+    pub fn scalar(s: T) -> Self {
+        Self([s, s, s, T::ZERO, T::ZERO, T::ZERO])
+    }
 
     /// As a dense matrix, rows first.
     pub fn dense(&self) -> [[T; 3]; 3] {
@@ -58,22 +62,24 @@ impl<T: Real> Sym3<T> {
     /// The inverse through L Δ Lᵀ, or `None` where rounding leaves a pivot that is not positive.
     #[inline]
     pub fn inverse(&self) -> Option<Self> {
-        let (inverse, pivots) = self.inverse_and_pivots();
+        let (inverse, pivots) = self.inverse_and_pivots(T::ONE);
         pivots.iter().all(|pivot| *pivot > T::ZERO).then_some(inverse)
     }
+}
 
-    /// The same without a branch, and the pivots: the inverse holds where all three are positive.
+impl<T: Number + Div<Output = T>> Sym3<T> {
+    /// The inverse without a branch, and the pivots: it holds where all three are positive.
     #[inline(always)]
-    pub(crate) fn inverse_and_pivots(&self) -> (Self, [T; 3]) {
+    pub(crate) fn inverse_and_pivots(&self, one: T) -> (Self, [T; 3]) {
         let [xx, yy, zz, xy, xz, yz] = self.0;
-        let i1 = T::ONE / xx;
+        let i1 = one / xx;
         let (l21, l31) = (xy * i1, xz * i1);
         let p2 = yy - l21 * xy;
-        let i2 = T::ONE / p2;
+        let i2 = one / p2;
         let s32 = yz - l31 * xy;
         let l32 = s32 * i2;
         let p3 = (zz - l31 * xz) - l32 * s32;
-        let i3 = T::ONE / p3;
+        let i3 = one / p3;
         // L⁻¹ = [1; −l21 1; m31 −l32 1], so D⁻¹ = Σ_k i_k ρ_k ρ_kᵀ over its rows ρ_k.
         let m31 = l21 * l32 - l31;
         let inverse = Self([

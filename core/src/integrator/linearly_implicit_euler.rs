@@ -24,7 +24,7 @@ use crate::parts::{IslandParts, Parts};
 use crate::pins::Motion;
 use crate::real::Real;
 use crate::report::{IslandReport, Report};
-use crate::solver::{BlockJacobi, Problem, Solver, Stop};
+use crate::solver::{Answer, BlockJacobi, Island, Solver, Stop};
 use crate::system::System;
 use crate::vec3::{self, Vec3};
 
@@ -165,22 +165,14 @@ impl<T: Real, F: Force<T>, S: Solver<T>> Integrator<T> for LinearlyImplicitEuler
         let mut report = Report::new(state.springs() - islands.edges);
         for k in 0..islands.count {
             let mut island = islands.island(k, work, &state);
-            let Assembled { clamped, certified, points, free } =
-                assemble::<T, F, M::Law>(&mut island, &mut self.forces, self.dt, scaling)?;
-            let IslandParts { matrix, vectors, block, .. } = &mut island;
-            let system = System { matrix, forces: &self.forces, points };
-            let solve = self.solver.solve(Problem { system, vectors, block, free }, &self.stop)?;
-            let first_particle = matrix.rows.particle.first().map_or(0, |i| *i as usize);
+            let to = Island { island: &mut island, forces: &mut self.forces, h: self.dt, scaling };
+            let Answer { clamped, certified, solve } = self.solver.answer::<F, M::Law>(to, &self.stop)?;
+            let rows = island.matrix.rows.particle;
+            let first_particle = rows.first().map_or(0, |i| *i as usize);
             if !solve.upper.is_finite() {
                 return Err(StepError::NotFinite(first_particle));
             }
-            let island = IslandReport {
-                first_particle,
-                particles: matrix.rows.particle.len(),
-                clamped,
-                certified,
-                solve,
-            };
+            let island = IslandReport { first_particle, particles: rows.len(), clamped, certified, solve };
             report.add(&island);
             watch(&island);
         }

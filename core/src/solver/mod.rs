@@ -19,9 +19,12 @@ pub use multigrid::{LevelPart, Multigrid};
 pub use pcg::Stop;
 pub use sparse_ldl::SparseLdl;
 
+use crate::assembly::{Assembled, assemble};
 use crate::error::StepError;
 use crate::force::Force;
-use crate::parts::Vectors;
+use crate::hessian::Scaling;
+use crate::law::Law;
+use crate::parts::{IslandParts, Vectors};
 use crate::real::Real;
 use crate::report::Solve;
 use crate::system::System;
@@ -38,8 +41,41 @@ pub struct Problem<'p, 'a, T, F> {
     pub(crate) free: bool,
 }
 
+/// One island of a step before it is assembled, opaque: only this crate's solvers look inside.
+pub struct Island<'p, 'a, T, F> {
+    pub(crate) island: &'p mut IslandParts<'a, T>,
+    pub(crate) forces: &'p mut F,
+    pub(crate) h: T,
+    pub(crate) scaling: Scaling<T>,
+}
+
+/// What became of it: the scene's x holds Δq̇.
+pub struct Answer<T> {
+    pub(crate) clamped: u32,
+    pub(crate) certified: bool,
+    pub(crate) solve: Solve<T>,
+}
+
 /// A method for A x = b.
 pub trait Solver<T: Real> {
+    /// Assembles one island's system and solves it. A solver with a layout of its own may assemble in its own way; the
+    /// others have it done in the scene's lists.
+    ///
+    /// # Errors
+    /// As [`Solver::solve`], and [`StepError::NotCertified`].
+    fn answer<F: Force<T>, L: Law>(
+        &mut self,
+        to: Island<'_, '_, T, F>,
+        stop: &Stop<T>,
+    ) -> Result<Answer<T>, StepError> {
+        let Island { island, forces, h, scaling } = to;
+        let Assembled { clamped, certified, points, free } = assemble::<T, F, L>(island, forces, h, scaling)?;
+        let IslandParts { matrix, vectors, block, .. } = island;
+        let system = System { matrix, forces: &*forces, points };
+        let solve = self.solve(Problem { system, vectors, block, free }, stop)?;
+        Ok(Answer { clamped, certified, solve })
+    }
+
     /// Solves one island's system until `stop` says enough, and certifies the answer.
     ///
     /// # Errors
@@ -53,6 +89,14 @@ pub trait Solver<T: Real> {
 
 /// A solver that outlives the integrator which uses it: what it keeps between steps stays with it.
 impl<T: Real, S: Solver<T>> Solver<T> for &mut S {
+    fn answer<F: Force<T>, L: Law>(
+        &mut self,
+        to: Island<'_, '_, T, F>,
+        stop: &Stop<T>,
+    ) -> Result<Answer<T>, StepError> {
+        (**self).answer::<F, L>(to, stop)
+    }
+
     fn solve<F: Force<T>>(
         &mut self,
         problem: Problem<'_, '_, T, F>,

@@ -63,10 +63,31 @@ pub(crate) fn solve<T: Real, F: Force<T>>(
     solve_by(system, &mut Plain(preconditioner), v, stop, free)
 }
 
-/// What is done between two checks; everything else of a solve is the same however the iterations are made.
-pub(crate) trait Iteration<T: Real> {
+/// The vectors of a solve, wherever they lie, and what is done to them. How a solve goes on and when it ends is the same
+/// for all ([`drive`]).
+pub(crate) trait Iterates<T: Real> {
+    /// x = 0 and so r = b, exactly: δ = 0; μ becomes 1/μ. Answers whether there is nothing to solve.
+    fn start(&mut self) -> bool;
+    /// ½ Σ|rᵢ|²/μᵢ
+    fn beta(&mut self) -> T;
+    /// r = b − A x computed anew with δ; on a `free` island the momentum equations are repaired first. Answers β.
+    fn check(&mut self, free: bool) -> T;
+    /// β of δ
+    fn rounding(&mut self) -> T;
+    /// β that so many updates of x can leave.
+    fn attainable(&mut self, updates: u32) -> T;
     /// Iterates from x and r until β ≤ target or the number of iterations is used up; answers whether it broke down
     /// (pᵀAp ≤ 0 or NaN).
+    fn iterate(&mut self, target: T, max_iterations: u32, iterations: &mut u32) -> bool;
+    /// Nothing that ½‖e‖²_A can exceed.
+    fn upper(&mut self) -> T;
+    /// ½‖e‖²_A is at least this. Spoils all vectors but x.
+    fn lower(&mut self) -> T;
+}
+
+/// What is done between two checks in the scene's own vectors.
+pub(crate) trait Iteration<T: Real> {
+    /// See [`Iterates::iterate`].
     fn iterate<F: Force<T>>(
         &mut self,
         system: &System<'_, T, F>,
@@ -81,7 +102,7 @@ pub(crate) trait Iteration<T: Real> {
 }
 
 /// As [`solve`], with the iterations made by `by`.
-#[inline(never)] // Once a step and island: frames of their own keep the stack shallow.
+#[inline(always)]
 pub(crate) fn solve_by<T: Real, F: Force<T>>(
     system: &System<'_, T, F>,
     by: &mut impl Iteration<T>,
@@ -89,9 +110,12 @@ pub(crate) fn solve_by<T: Real, F: Force<T>>(
     stop: &Stop<T>,
     free: bool,
 ) -> Solve<T> {
-    for mu in v.mu.iter_mut() {
-        *mu = T::ONE / *mu;
-    }
+    drive(&mut InVectors { system, by, v }, stop, free)
+}
+
+/// Iterates, checks, and certifies: every solve by iterations.
+#[inline(never)] // Once a step and island: frames of their own keep the stack shallow.
+pub(crate) fn drive<T: Real>(v: &mut impl Iterates<T>, stop: &Stop<T>, free: bool) -> Solve<T> {
     if v.start() {
         return Solve {
             iterations: 0,
@@ -101,13 +125,13 @@ pub(crate) fn solve_by<T: Real, F: Force<T>>(
             fallback: false,
         };
     }
-    let mut from = bound::weighted(v.r, v.mu);
+    let mut from = v.beta();
     // No goal is relative to what has overflowed.
     let relative = if from.is_finite() { stop.relative * stop.relative * from } else { T::ZERO };
     let goal = larger(relative, stop.absolute);
     if free {
         // What acts on the island as a whole it follows as a whole, whatever the tolerance.
-        from = v.check(system, true);
+        from = v.check(true);
     }
     let (mut iterations, mut stuck) = (0, false);
     let mut ending = if from <= goal && from.is_finite() { Some(Ending::Untouched) } else { None };
@@ -117,27 +141,72 @@ pub(crate) fn solve_by<T: Real, F: Force<T>>(
         let blind = T::from_count(16) * T::UNIT_ROUNDOFF;
         let (target, before) = (larger(goal, blind * blind * from), iterations);
         if iterations < stop.max_iterations {
-            stuck = by.iterate(system, v, target, stop.max_iterations, &mut iterations);
-            reached = v.check(system, free);
+            stuck = v.iterate(target, stop.max_iterations, &mut iterations);
+            reached = v.check(free);
         }
         ending = if reached <= goal {
             Some(Ending::Converged)
-        } else if reached <= bound::weighted(v.p, v.mu) {
+        } else if reached <= v.rounding() {
             Some(Ending::Floor)
         } else if iterations >= stop.max_iterations {
             Some(Ending::Capped)
         } else if stuck || !(reached < T::HALF * from) {
-            let rounding = bound::attainable(system, v.x, v.p, iterations - before, v.mu, v.y);
+            let rounding = v.attainable(iterations - before);
             Some(if reached <= rounding { Ending::Floor } else { Ending::Stalled })
         } else {
             None
         };
         from = reached;
     }
-    let upper = bound::upper(v.r, v.p, v.mu);
-    by.precondition(system, v);
-    let lower = bound::lower(system, v.r, v.y, v.b, v.p);
+    let (upper, lower) = (v.upper(), v.lower());
     Solve { iterations, upper, lower, ending: ending.unwrap_or(Ending::Stalled), fallback: false }
+}
+
+/// The scene's own vectors, and what iterates in them.
+struct InVectors<'s, 'a, T, F, I> {
+    system: &'s System<'s, T, F>,
+    by: &'s mut I,
+    v: &'s mut Vectors<'a, T>,
+}
+
+impl<T: Real, F: Force<T>, I: Iteration<T>> Iterates<T> for InVectors<'_, '_, T, F, I> {
+    #[inline]
+    fn start(&mut self) -> bool {
+        for mu in self.v.mu.iter_mut() {
+            *mu = T::ONE / *mu;
+        }
+        self.v.start()
+    }
+    #[inline]
+    fn beta(&mut self) -> T {
+        bound::weighted(self.v.r, self.v.mu)
+    }
+    #[inline]
+    fn check(&mut self, free: bool) -> T {
+        self.v.check(self.system, free)
+    }
+    #[inline]
+    fn rounding(&mut self) -> T {
+        bound::weighted(self.v.p, self.v.mu)
+    }
+    #[inline]
+    fn attainable(&mut self, updates: u32) -> T {
+        let v = &mut *self.v;
+        bound::attainable(self.system, v.x, v.p, updates, v.mu, v.y)
+    }
+    #[inline]
+    fn iterate(&mut self, target: T, max_iterations: u32, iterations: &mut u32) -> bool {
+        self.by.iterate(self.system, self.v, target, max_iterations, iterations)
+    }
+    #[inline]
+    fn upper(&mut self) -> T {
+        bound::upper(self.v.r, self.v.p, self.v.mu)
+    }
+    #[inline]
+    fn lower(&mut self) -> T {
+        self.by.precondition(self.system, self.v);
+        bound::lower(self.system, self.v.r, self.v.y, self.v.b, self.v.p)
+    }
 }
 
 impl<T: Real> Vectors<'_, T> {

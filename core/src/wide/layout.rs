@@ -1,17 +1,20 @@
 //! Offset runs: a cloth's springs join particles i and i + d for a few distances d. Stored per distance as arrays over i,
 //! zero where there is no spring, a product needs no index and no scatter.
 //!
-//! A row's place is its particle's number counted from the island's first, so pins leave holes of zeros instead of
-//! shifting what comes after them. The layout is found from the numbering and kept while it stands.
+//! A particle's place is its number counted from the lowest that the island's springs touch, so pins keep their places
+//! among the rows instead of shifting what comes after them; what is no row is masked by a mass of 0. A spring's place is
+//! that of its lower end. Which place and run each spring has is kept in a word, found once and compared again at each
+//! step: a layout that no longer fits is found anew.
 
-use crate::parts::Matrix;
+use crate::parts::IslandParts;
 use crate::real::Real;
-use crate::wide::tile::TILE;
+use crate::wide::eight::WIDTH;
 
 /// At most so many distances.
 pub(crate) const MOST_RUNS: usize = 16;
-/// The word of a spring that ends at a pin.
-pub(crate) const ANCHOR: u32 = u32::MAX;
+/// A spring's word: its run in the upper bits, its place in the lower.
+const PLACE_BITS: u32 = 27;
+const PLACE: u32 = (1 << PLACE_BITS) - 1;
 
 /// Where an island's rows and springs lie.
 #[derive(Debug, Clone, Copy)]
@@ -19,18 +22,39 @@ pub(crate) struct Layout {
     /// The distances, ascending; the first `runs` are in use
     distance: [u32; MOST_RUNS],
     pub(crate) runs: usize,
+    /// The particle at place 0
+    pub(crate) base: usize,
     /// Number of places, rounded up to whole tiles
     pub(crate) places: usize,
     /// Zeros before and behind them: the farthest distance, rounded up
     pub(crate) pad: usize,
-    /// What the layout was found from
-    fingerprint: [u32; 4],
+    /// How many springs it was found from
+    pub(crate) springs: usize,
+}
+
+/// A spring in the numbering: particle of its lower end, distance to the other, and whether its row is the upper one (the
+/// lower then is a pin).
+pub(crate) struct Pair {
+    pub(crate) low: u32,
+    pub(crate) distance: u32,
+    pub(crate) turned: bool,
+}
+
+impl Pair {
+    #[inline(always)]
+    pub(crate) fn new(row: u32, other: u32) -> Self {
+        if row < other {
+            Self { low: row, distance: other - row, turned: false }
+        } else {
+            Self { low: other, distance: row - other, turned: true }
+        }
+    }
 }
 
 impl Layout {
     /// Of nothing.
     pub(crate) const fn none() -> Self {
-        Self { distance: [0; MOST_RUNS], runs: 0, places: 0, pad: 0, fingerprint: [0; 4] }
+        Self { distance: [0; MOST_RUNS], runs: 0, base: 0, places: 0, pad: 0, springs: 0 }
     }
 
     /// Numbers in a plane.
@@ -45,59 +69,84 @@ impl Layout {
         self.distance.get(..self.runs).unwrap_or_default()
     }
 
-    /// Does it still belong to this island?
-    pub(crate) fn fits<T: Real>(&self, matrix: &Matrix<'_, T>) -> bool {
-        self.fingerprint == fingerprint(matrix)
+    /// Where the tiles begin.
+    #[inline(always)]
+    pub(crate) fn tiles(&self) -> impl Iterator<Item = usize> + use<> {
+        let pad = self.pad;
+        (0..self.places / WIDTH).map(move |k| pad + k * WIDTH)
     }
 
-    /// Are there not too many distances? (No memory is needed to see that.)
-    pub(crate) fn is_conceivable<T: Real>(matrix: &Matrix<'_, T>) -> bool {
-        let mut layout = Self::none();
-        let rows = matrix.own.len();
-        each_spring(matrix, |row, other, _| {
-            if other >= rows {
-                return Some(());
-            }
-            layout.meet(place(matrix, other)?.checked_sub(place(matrix, row)?)? as u32)
-        })
-        .is_some()
+    /// Where a particle lies in a plane.
+    #[inline(always)]
+    pub(crate) fn place(&self, particle: u32) -> usize {
+        (particle as usize).wrapping_sub(self.base).wrapping_add(self.pad)
     }
 
-    /// Finds the layout, and in `run` which run each spring belongs to. `None` if the springs have too many distances,
-    /// or the runs would be mostly zeros.
-    pub(crate) fn find<T: Real>(matrix: &Matrix<'_, T>, run: &mut [u32]) -> Option<Self> {
-        let mut layout = Self { fingerprint: fingerprint(matrix), ..Self::none() };
-        let rows = matrix.own.len();
-        let last = place(matrix, rows.checked_sub(1)?)?;
-        let mut pairs = 0;
-        each_spring(matrix, |row, other, edge| {
-            let far = if other < rows { place(matrix, other)?.checked_sub(place(matrix, row)?)? } else { 0 };
-            *run.get_mut(edge)? = if other < rows { far as u32 } else { ANCHOR };
-            if other < rows {
-                pairs += 1;
-                layout.meet(far as u32)?;
-            }
-            Some(())
-        })?;
-        let farthest = layout.distances().last().copied().unwrap_or(0) as usize;
-        layout.places = (last + 1).next_multiple_of(TILE);
-        layout.pad = farthest.next_multiple_of(TILE);
-        // Two springs of the same distance cannot start at the same row.
+    /// Where the first of a spring's numbers lies among the Hessians' planes.
+    #[inline(always)]
+    pub(crate) fn at(&self, word: u32) -> usize {
+        4 * (word >> PLACE_BITS) as usize * self.plane() + self.pad + (word & PLACE) as usize
+    }
+
+    /// The run and the place that a spring's word stands for, if they are those of this pair.
+    #[inline(always)]
+    pub(crate) fn run_of(&self, word: u32, pair: &Pair) -> Option<usize> {
+        let run = (word >> PLACE_BITS) as usize;
+        let same = self.distance.get(run) == Some(&pair.distance)
+            && (word & PLACE) as usize == (pair.low as usize).wrapping_sub(self.base);
+        same.then_some(run)
+    }
+
+    /// Finds the layout, and in `words` where each spring lies. `None` if the springs have too many distances, or the runs
+    /// would be mostly zeros.
+    #[inline(never)]
+    pub(crate) fn find<T: Real>(island: &IslandParts<'_, T>, words: &mut [u32]) -> Option<Self> {
+        let mut layout = Self::shape(island)?;
+        layout.springs = island.matrix.other.len();
+        // Two springs of the same distance cannot lie at the same place.
         let mut twice = false;
-        let mut from = 0;
-        for own in matrix.own {
-            let mine = run.get_mut(from..from + *own as usize)?;
-            from += *own as usize;
-            let mut seen = 0u32;
-            for run in mine.iter_mut().filter(|run| **run != ANCHOR) {
-                let index = layout.distances().iter().position(|d| d == run)? as u32;
-                twice |= seen & (1 << index) != 0;
-                seen |= 1 << index;
-                *run = index;
+        let mut words = words.iter_mut();
+        let mut others = island.matrix.other.iter();
+        for (row, own) in island.matrix.own.iter().enumerate() {
+            let mut seen = [0_u32; 2];
+            for other in others.by_ref().take(*own as usize) {
+                let pair = island.pair(row, *other as usize)?;
+                let run = layout.distances().iter().position(|d| *d == pair.distance)? as u32;
+                let [straight, turned] = &mut seen;
+                let seen = if pair.turned { turned } else { straight };
+                twice |= *seen & (1 << run) != 0;
+                *seen |= 1 << run;
+                let place = pair.low.wrapping_sub(layout.base as u32);
+                *words.next()? = run << PLACE_BITS | place;
             }
         }
-        let worth_it = layout.runs * layout.places <= 2 * pairs + 64 && layout.places <= 2 * rows + 64;
-        (worth_it && !twice).then_some(layout)
+        (!twice).then_some(layout)
+    }
+
+    /// The distances and the places; no memory is needed to see whether there are not too many.
+    pub(crate) fn shape<T: Real>(island: &IslandParts<'_, T>) -> Option<Self> {
+        let mut layout = Self::none();
+        let rows = island.matrix.own.len();
+        let (mut lowest, mut highest) =
+            (*island.particle.first()?, *island.particle.get(rows.checked_sub(1)?)?);
+        let mut others = island.matrix.other.iter();
+        for (row, own) in island.matrix.own.iter().enumerate() {
+            for other in others.by_ref().take(*own as usize) {
+                let pair = island.pair(row, *other as usize)?;
+                layout.meet(pair.distance)?;
+                lowest = core::cmp::min(lowest, pair.low);
+                highest = core::cmp::max(highest, pair.low + pair.distance);
+            }
+        }
+        let farthest = layout.distances().last().copied().unwrap_or(0) as usize;
+        layout.base = lowest as usize;
+        layout.places = ((highest - lowest) as usize + 1).next_multiple_of(WIDTH);
+        layout.pad = farthest.next_multiple_of(WIDTH);
+        let springs = island.matrix.other.len();
+        let worth_it = layout.runs * layout.places <= 2 * springs + 64
+            && layout.places <= 2 * rows + 64
+            && layout.places <= PLACE as usize;
+        worth_it.then_some(layout)
     }
 
     /// Adds a distance, in order.
@@ -118,36 +167,10 @@ impl Layout {
     }
 }
 
-/// The place of a row.
-#[inline(always)]
-pub(crate) fn place<T>(matrix: &Matrix<'_, T>, row: usize) -> Option<usize> {
-    let particles = matrix.rows.particle;
-    particles.get(row)?.checked_sub(*particles.first()?).map(|place| place as usize)
-}
-
-/// Visits the springs in their order: (row, other end, place in the lists).
-#[inline(always)]
-pub(crate) fn each_spring<T>(
-    matrix: &Matrix<'_, T>,
-    mut visit: impl FnMut(usize, usize, usize) -> Option<()>,
-) -> Option<()> {
-    let mut others = matrix.other.iter().enumerate();
-    for (row, own) in matrix.own.iter().enumerate() {
-        for (edge, other) in others.by_ref().take(*own as usize) {
-            visit(row, *other as usize, edge)?;
-        }
+impl<T> IslandParts<'_, T> {
+    /// A spring's ends in the caller's numbering.
+    #[inline(always)]
+    pub(crate) fn pair(&self, row: usize, other: usize) -> Option<Pair> {
+        Some(Pair::new(*self.particle.get(row)?, *self.particle.get(other)?))
     }
-    Some(())
-}
-
-/// What a layout depends on, in a few words. Two numberings with the same words would make the lanes solve another
-/// system than the scene's; the certificate, which knows nothing of lanes, would say so.
-fn fingerprint<T: Real>(matrix: &Matrix<'_, T>) -> [u32; 4] {
-    let sum = |words: &[u32]| {
-        let term =
-            |(i, word): (usize, &u32)| word.wrapping_add(1).wrapping_mul((i as u32).wrapping_mul(2) | 1);
-        words.iter().enumerate().map(term).fold(0, u32::wrapping_add)
-    };
-    let Matrix { rows, own, other, .. } = matrix;
-    [sum(own), sum(other), sum(rows.particle), (own.len() as u32) ^ (other.len() as u32).rotate_left(16)]
 }

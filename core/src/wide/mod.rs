@@ -2,257 +2,229 @@
 //! the numbering (cloths, nets, ropes, lattices).
 //!
 //! The same mathematics as [`crate::BlockJacobi`], with the island laid out in offset runs ([`layout`]) and planes
-//! ([`work`]): no index, no scatter, eight rows side by side. Sums run in an order of its own, so its bits differ from
-//! those of [`crate::BlockJacobi`] in the last places; they are the same on every target, for every [`Dispatch`]. The
-//! start, the checks and the bounds are those of every solver. An island that has too many distances is left to
+//! ([`work`]): assembly, certificate, product, residual and bounds have no index and no scatter, eight rows side by side.
+//! Sums over rows run over places, so bits differ from those of [`crate::BlockJacobi`] in the last places; they are the same
+//! on every target, for every [`Dispatch`]. An island that has too many distances is left to
 //! [`crate::BlockJacobi`].
 //!
-//! Cost: an iteration takes about half the time that it takes in the scene's own vectors (`compare` in `benches/` measures
-//! it). Memory: 20 numbers per particle and 4 per particle and distance, on top of the scene's.
+//! Cost: `compare` in `benches/` measures it. Memory: 23 numbers per particle and 6 per particle and distance, on top of
+//! the scene's; with damping along springs 7 instead of 6.
 
+pub(crate) mod assembly;
+pub(crate) mod bound;
 pub(crate) mod diagonal;
 pub(crate) mod dispatch;
+pub(crate) mod eight;
+pub(crate) mod gather;
+pub(crate) mod island;
 pub(crate) mod layout;
+pub(crate) mod load;
 pub(crate) mod product;
+pub(crate) mod solve;
 pub(crate) mod sweep;
-pub(crate) mod tile;
 pub(crate) mod work;
 
 pub use dispatch::{Dispatch, Portable};
 
 use crate::error::StepError;
 use crate::force::Force;
+use crate::law::Law;
 use crate::memory::Memory;
-use crate::parts::{Matrix, Vectors};
+use crate::parts::IslandParts;
 use crate::real::Real;
 use crate::report::Solve;
 use crate::scene::MassSpring;
-use crate::solver::{BlockJacobi, Problem, Solver, Stop, pcg};
+use crate::solver::{Answer, BlockJacobi, Island, Problem, Solver, Stop};
 use crate::system::System;
-use crate::vec3::Vec3;
-use layout::{ANCHOR, Layout, each_spring, place};
-use work::Work;
+use island::Givens;
+use layout::Layout;
+pub use solve::Widened;
+use work::{Front, Iterates, Workshop};
 
-/// Block-Jacobi PCG over offset runs, in a workspace of the caller's.
+/// PCG over offset runs in a workspace of the caller's, preconditioned by `P`. An island without runs is left to `P`'s own
+/// way.
 #[derive(Debug, Clone, Copy)]
-pub struct WideJacobi<N, W, D = Portable> {
+pub struct Wide<N, W, D = Portable, P = BlockJacobi> {
     numbers: N,
     words: W,
     dispatch: D,
+    preconditioner: P,
     layout: Layout,
     /// Is the layout that of the words?
     found: bool,
+    /// With room for damping?
+    damped: bool,
 }
 
-impl<N, W, D: Dispatch> WideJacobi<N, W, D> {
-    /// A solver in this workspace; [`WideJacobi::needs_of`] says how large it is to be. If it is too small, a step fails with
+/// Block-Jacobi PCG over offset runs.
+pub type WideJacobi<N, W, D = Portable> = Wide<N, W, D, BlockJacobi>;
+
+impl<N, W, D: Dispatch> Wide<N, W, D> {
+    /// A solver in this workspace; [`Wide::needs_of`] says how large it is to be. If it is too small, a step fails with
     /// [`StepError::Workspace`], which says so too.
     pub const fn new(numbers: N, words: W, dispatch: D) -> Self {
-        Self { numbers, words, dispatch, layout: Layout::none(), found: false }
+        let layout = Layout::none();
+        Self { numbers, words, dispatch, preconditioner: BlockJacobi, layout, found: false, damped: false }
     }
 
-    /// Was the last island solved in lanes? If not, its springs join particles at too many distances, and
-    /// [`crate::BlockJacobi`] solved it.
+    /// The same with another preconditioner: [`crate::Multigrid`].
+    pub fn around<P>(self, preconditioner: P) -> Wide<N, W, D, P> {
+        let Self { numbers, words, dispatch, layout, .. } = self;
+        Wide { numbers, words, dispatch, preconditioner, layout, found: false, damped: false }
+    }
+}
+
+impl<N, W, D, P> Wide<N, W, D, P> {
+    /// Was the last island solved in lanes? If not, its springs join particles at too many distances.
     pub fn in_lanes(&self) -> bool {
         self.found
     }
 }
 
-impl WideJacobi<(), ()> {
-    /// How many numbers and words a scene needs as its pins and springs are now. Islands share the workspace.
-    /// `scratch` is a word per spring.
-    pub fn needs_of<M: Memory>(scene: &mut MassSpring<M>, scratch: &mut [u32]) -> (usize, usize) {
+impl Wide<(), ()> {
+    /// How many numbers and words a scene needs as its pins and springs are now, with damping along springs or without.
+    /// Islands share the workspace.
+    pub fn needs_of<M: Memory>(scene: &mut MassSpring<M>, damped: bool) -> (usize, usize) {
         let parts = scene.parts();
         let state = parts.network.state();
         let (mut numbers, mut words) = (0, 0);
         for k in 0..parts.islands.count {
             let island = parts.islands.island(k, parts.work, &state);
-            if !Layout::is_conceivable(&island.matrix) {
-                continue;
+            if let Some(layout) = Layout::shape(&island) {
+                numbers = core::cmp::max(numbers, work::needs(&layout, damped));
+                words = core::cmp::max(words, island.matrix.other.len());
             }
-            words = core::cmp::max(words, island.matrix.other.len());
-            let Some(layout) = Layout::find(&island.matrix, scratch) else { continue };
-            let edges = island.matrix.other.len();
-            numbers = core::cmp::max(numbers, work::needs(&layout));
-            words = core::cmp::max(words, edges + 2 * island.anchors);
         }
         (numbers, words)
     }
 }
 
-impl<T: Real, N: AsMut<[T]>, W: AsMut<[u32]>, D: Dispatch> Solver<T> for WideJacobi<N, W, D> {
+impl<N, W, D: Dispatch, P> Wide<N, W, D, P> {
+    /// Finds the layout of an island; answers whether it has one.
+    #[inline(never)]
+    fn find<T: Real>(&mut self, island: &IslandParts<'_, T>, damped: bool) -> Result<bool, StepError>
+    where
+        N: AsMut<[T]>,
+        W: AsMut<[u32]>,
+    {
+        self.found = false;
+        let Some(layout) = Layout::shape(island) else { return Ok(false) };
+        let needs = (work::needs(&layout, damped), island.matrix.other.len());
+        let (numbers, words) = (self.numbers.as_mut(), self.words.as_mut());
+        let (Some(numbers), Some(words)) = (numbers.get_mut(..needs.0), words.get_mut(..needs.1)) else {
+            return Err(StepError::Workspace { numbers: needs.0, words: needs.1 });
+        };
+        numbers.fill(T::ZERO);
+        let Some(layout) = Layout::find(island, words) else { return Ok(false) };
+        (self.layout, self.found, self.damped) = (layout, true, damped);
+        Ok(true)
+    }
+
+    /// An island's step; `None` if the layout is not that of the island any more.
+    fn attempt<T: Real, F: Force<T>, L: Law>(
+        &mut self,
+        to: &mut Island<'_, '_, T, F>,
+        stop: &Stop<T>,
+    ) -> Result<Option<Answer<T>>, StepError>
+    where
+        N: AsMut<[T]>,
+        W: AsMut<[u32]>,
+        P: Preconditions<T>,
+    {
+        let (layout, dispatch) = (self.layout, self.dispatch);
+        let short = StepError::Workspace { numbers: work::needs(&layout, F::DAMPS), words: layout.springs };
+        let words = self.words.as_mut().get(..layout.springs).ok_or(short)?;
+        let (mut front, behind) = work::cut(self.numbers.as_mut(), &layout, F::DAMPS).ok_or(short)?;
+        let Island { island, forces, h, scaling } = to;
+        let assembled = {
+            let mut workshop = Workshop::cut(&mut *behind, &layout).ok_or(short)?;
+            let (h, scaling, layout) = (*h, *scaling, &layout);
+            let mut givens = Givens { island, forces: &mut **forces, h, scaling, layout, words, dispatch };
+            givens.assemble::<L>(&mut front, &mut workshop)?
+        };
+        let Some(assembled) = assembled else { return Ok(None) };
+        if P::READS_SPRINGS {
+            put_back(island, &layout, words, &front);
+        }
+        let work = Iterates::cut(behind, &layout).ok_or(short)?;
+        let system = System { matrix: &island.matrix, forces: &**forces, points: assembled.points };
+        let lanes = Widened { layout, front, work, system, dispatch, free: assembled.free };
+        let solve = self.preconditioner.solve_in_lanes(lanes, &mut *island.vectors.x, stop)?;
+        Ok(Some(Answer { clamped: assembled.clamped, certified: assembled.certified, solve }))
+    }
+}
+
+/// Preconditioners that PCG in lanes can be built around.
+pub trait Preconditions<T: Real>: Solver<T> {
+    /// Does it read the springs' Hessians from the scene's own list?
+    #[doc(hidden)]
+    const READS_SPRINGS: bool;
+
+    /// Solves an island that is laid out in lanes; the answer goes to `x`.
+    ///
+    /// # Errors
+    /// [`StepError::Workspace`] if the preconditioner's scratch is too small.
+    fn solve_in_lanes<F: Force<T>, D: Dispatch>(
+        &mut self,
+        lanes: Widened<'_, '_, T, F, D>,
+        x: &mut [[T; 3]],
+        stop: &Stop<T>,
+    ) -> Result<Solve<T>, StepError>;
+}
+
+impl<T: Real> Preconditions<T> for BlockJacobi {
+    const READS_SPRINGS: bool = false;
+
+    fn solve_in_lanes<F: Force<T>, D: Dispatch>(
+        &mut self,
+        mut lanes: Widened<'_, '_, T, F, D>,
+        x: &mut [[T; 3]],
+        stop: &Stop<T>,
+    ) -> Result<Solve<T>, StepError> {
+        lanes.invert_diagonal();
+        Ok(lanes.solve(solve::Diagonal, x, stop))
+    }
+}
+
+/// The Hessians into the scene's own list.
+fn put_back<T: Real>(island: &mut IslandParts<'_, T>, layout: &Layout, words: &[u32], front: &Front<'_, T>) {
+    let n = layout.plane();
+    for (to, word) in island.matrix.hessian.iter_mut().zip(words) {
+        let at = layout.at(*word);
+        for (k, value) in to.iter_mut().enumerate() {
+            *value = front.hessians.get(at + k * n).copied().unwrap_or(T::ZERO);
+        }
+    }
+}
+
+impl<T: Real, N: AsMut<[T]>, W: AsMut<[u32]>, D: Dispatch, P: Preconditions<T>> Solver<T>
+    for Wide<N, W, D, P>
+{
+    fn answer<F: Force<T>, L: Law>(
+        &mut self,
+        mut to: Island<'_, '_, T, F>,
+        stop: &Stop<T>,
+    ) -> Result<Answer<T>, StepError> {
+        if self.found
+            && self.damped == F::DAMPS
+            && let Some(answer) = self.attempt::<T, F, L>(&mut to, stop)?
+        {
+            return Ok(answer);
+        }
+        if self.find(to.island, F::DAMPS)?
+            && let Some(answer) = self.attempt::<T, F, L>(&mut to, stop)?
+        {
+            return Ok(answer);
+        }
+        self.found = false;
+        self.preconditioner.answer::<F, L>(to, stop)
+    }
+
     fn solve<F: Force<T>>(
         &mut self,
         problem: Problem<'_, '_, T, F>,
         stop: &Stop<T>,
     ) -> Result<Solve<T>, StepError> {
-        let (numbers, words) = (self.numbers.as_mut(), self.words.as_mut());
-        let Problem { system, vectors, free, .. } = problem;
-        let matrix = system.matrix;
-        let edges = matrix.other.len();
-        let known = self.found && self.layout.fits(matrix);
-        if !known {
-            let room = words.len();
-            self.found = false;
-            // Most scenes without a layout are known as such before the springs are looked at one by one.
-            let layout = if Layout::is_conceivable(matrix) {
-                let run = words.get_mut(..edges).ok_or(StepError::Workspace { numbers: 0, words: edges })?;
-                Layout::find(matrix, run)
-            } else {
-                None
-            };
-            let Some(layout) = layout else {
-                return BlockJacobi.solve(Problem { system, vectors, ..problem }, stop);
-            };
-            let needs = (work::needs(&layout), edges + 2 * anchors_of(matrix));
-            if needs.0 > numbers.len() || needs.1 > room {
-                return Err(StepError::Workspace { numbers: needs.0, words: needs.1 });
-            }
-            numbers.fill(T::ZERO);
-            list_anchors(matrix, words);
-            (self.layout, self.found) = (layout, true);
-        }
-        let (run, anchors) = words.split_at_mut_checked(edges).unwrap_or_default();
-        let anchors = anchors.get(..2 * anchors_of(matrix)).unwrap_or_default();
-        let Some(work) = Work::cut(numbers, &self.layout) else {
-            return Err(StepError::Workspace { numbers: work::needs(&self.layout), words: 0 });
-        };
-        let mut lanes =
-            Lanes { layout: self.layout, run, anchors, work, dispatch: self.dispatch, filled: false };
-        Ok(pcg::solve_by(&system, &mut lanes, vectors, stop, free))
-    }
-}
-
-/// How many springs end at a pin.
-fn anchors_of<T>(matrix: &Matrix<'_, T>) -> usize {
-    let rows = matrix.own.len();
-    matrix.other.iter().filter(|other| **other as usize >= rows).count()
-}
-
-/// Lists (row, place in the lists) of the springs that end at a pin behind the runs of all springs.
-fn list_anchors<T>(matrix: &Matrix<'_, T>, words: &mut [u32]) {
-    let Some((run, list)) = words.split_at_mut_checked(matrix.other.len()) else { return };
-    let mut list = list.as_chunks_mut().0.iter_mut();
-    _ = each_spring(matrix, |row, _, edge| {
-        if run.get(edge) == Some(&ANCHOR) {
-            *list.next()? = [row as u32, edge as u32];
-        }
-        Some(())
-    });
-}
-
-/// One island's solve in lanes.
-struct Lanes<'a, T, D> {
-    layout: Layout,
-    /// Which run each spring belongs to
-    run: &'a [u32],
-    anchors: &'a [u32],
-    work: Work<'a, T>,
-    dispatch: D,
-    filled: bool,
-}
-
-impl<T: Real, D: Dispatch> Lanes<'_, T, D> {
-    /// The system's numbers into planes, and D⁻¹.
-    fn fill<F: Force<T>>(&mut self, system: &System<'_, T, F>, weight: &[T]) {
-        let Self { layout, run, anchors, work, dispatch, .. } = self;
-        let (matrix, plane, pad) = (system.matrix, layout.plane(), layout.pad);
-        for (row, (m, weight)) in matrix.inertia.iter().zip(weight).enumerate() {
-            let at = pad + place(matrix, row).unwrap_or(0);
-            if let (Some(to_m), Some(to_weight)) = (work.inertia.get_mut(at), work.weight.get_mut(at)) {
-                (*to_m, *to_weight) = (*m, *weight);
-            }
-        }
-        _ = each_spring(matrix, |row, _, edge| {
-            let run = *run.get(edge)?;
-            if run != ANCHOR {
-                let first = 4 * run as usize * plane + pad + place(matrix, row)?;
-                for (k, value) in matrix.hessian.get(edge)?.iter().enumerate() {
-                    *work.runs.get_mut(first + k * plane)? = *value;
-                }
-            }
-            Some(())
-        });
-        dispatch.run(
-            #[inline(always)]
-            || diagonal::blocks(layout, work),
-        );
-        diagonal::anchors(system, layout, anchors, work);
-        dispatch.run(
-            #[inline(always)]
-            || diagonal::invert(layout, work),
-        );
-        self.filled = true;
-    }
-
-    /// r and x of the scene into planes; p and y 0.
-    fn load<F>(&mut self, system: &System<'_, T, F>, x: &[Vec3<T>], r: &[Vec3<T>]) {
-        let Work { x: x_planes, r: r_planes, p, y, .. } = &mut self.work;
-        for (row, (x, r)) in x.iter().zip(r).enumerate() {
-            let at = self.layout.pad + place(system.matrix, row).unwrap_or(0);
-            x_planes.put(at, *x);
-            r_planes.put(at, *r);
-        }
-        p.clear();
-        y.clear();
-    }
-}
-
-impl<T: Real, D: Dispatch> pcg::Iteration<T> for Lanes<'_, T, D> {
-    fn iterate<F: Force<T>>(
-        &mut self,
-        system: &System<'_, T, F>,
-        v: &mut Vectors<'_, T>,
-        target: T,
-        max_iterations: u32,
-        iterations: &mut u32,
-    ) -> bool {
-        if !self.filled {
-            self.fill(system, v.mu);
-        }
-        self.load(system, v.x, v.r);
-        let Self { layout, anchors, work, dispatch, .. } = self;
-        let stuck = dispatch.run(
-            #[inline(always)]
-            || {
-                let (mut step, mut rz) = (T::ZERO, T::ZERO);
-                loop {
-                    let (beta, next) = sweep::sweep(layout, work, step);
-                    if !(T::HALF * beta > target) || *iterations >= max_iterations {
-                        return false;
-                    }
-                    sweep::direction(layout, work, if rz > T::ZERO { next / rz } else { T::ZERO });
-                    let Work { p, y, runs, inertia, .. } = &mut *work;
-                    let mut form = product::over_runs(layout, runs, inertia, p, y);
-                    product::over_anchors(system, layout, anchors, p, y, &mut form);
-                    let curvature = form.sum();
-                    if !(curvature > T::ZERO) {
-                        return true;
-                    }
-                    step = next / curvature;
-                    rz = next;
-                    *iterations += 1;
-                }
-            },
-        );
-        for (row, x) in v.x.iter_mut().enumerate() {
-            *x = work.x.row(layout.pad + place(system.matrix, row).unwrap_or(0));
-        }
-        stuck
-    }
-
-    fn precondition<F: Force<T>>(&mut self, system: &System<'_, T, F>, v: &mut Vectors<'_, T>) {
-        if !self.filled {
-            self.fill(system, v.mu);
-        }
-        self.load(system, v.x, v.r);
-        let Self { layout, work, dispatch, .. } = self;
-        dispatch.run(
-            #[inline(always)]
-            || sweep::sweep(layout, work, T::ZERO),
-        );
-        for (row, z) in v.y.iter_mut().enumerate() {
-            *z = work.y.row(layout.pad + place(system.matrix, row).unwrap_or(0));
-        }
+        self.preconditioner.solve(problem, stop)
     }
 }

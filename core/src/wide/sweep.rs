@@ -1,70 +1,170 @@
-//! The vector work of a PCG iteration in tiles: x += a p, r −= a y, z = D⁻¹r, and p = z + ρ p.
+//! The vector work of a PCG iteration in lanes: x += a p, r −= a y, z = D⁻¹r, and p = z + ρ p.
 
 use crate::bound::square;
 use crate::lanes::Lanes;
-use crate::real::Real;
+use crate::real::{Real, larger};
 use crate::sym3::Sym3;
-use crate::vec3;
+use crate::vec3::{self, Vec3};
+use crate::wide::eight::{Eight, Planes, all};
 use crate::wide::layout::Layout;
-use crate::wide::tile::{TILE, Tile, add_terms, row, tile};
-use crate::wide::work::{Work, tiles};
+use crate::wide::work::Iterates;
+
+/// The tiles of a plane.
+#[inline(always)]
+fn tiles<'p, T>(layout: &Layout, plane: &'p [T]) -> core::slice::Iter<'p, [T; 8]> {
+    let there = plane.get(layout.pad..layout.pad + layout.places);
+    there.unwrap_or_default().as_chunks().0.iter()
+}
+
+#[inline(always)]
+fn tiles_mut<'p, T>(layout: &Layout, plane: &'p mut [T]) -> core::slice::IterMut<'p, [T; 8]> {
+    let there = plane.get_mut(layout.pad..layout.pad + layout.places);
+    there.unwrap_or_default().as_chunks_mut().0.iter_mut()
+}
+
+/// Vectors of eight rows at a time.
+#[inline(always)]
+pub(crate) fn vectors<'p, T: Real>(
+    layout: &Layout,
+    Planes([x, y, z]): &'p Planes<'_, T>,
+) -> impl Iterator<Item = Vec3<Eight<T>>> + use<'p, T> {
+    tiles(layout, x).zip(tiles(layout, y)).zip(tiles(layout, z)).map(
+        #[inline(always)]
+        |((x, y), z)| [Eight(*x), Eight(*y), Eight(*z)],
+    )
+}
+
+/// Where vectors of eight rows at a time are.
+#[inline(always)]
+pub(crate) fn vectors_mut<'p, T: Real>(
+    layout: &Layout,
+    Planes([x, y, z]): &'p mut Planes<'_, T>,
+) -> impl Iterator<Item = Vec3Mut<'p, T>> + use<'p, T> {
+    tiles_mut(layout, x).zip(tiles_mut(layout, y)).zip(tiles_mut(layout, z)).map(
+        #[inline(always)]
+        |((x, y), z)| [x, y, z],
+    )
+}
+
+/// Eight vectors in their planes.
+pub(crate) type Vec3Mut<'p, T> = [&'p mut [T; 8]; 3];
+
+#[inline(always)]
+fn get<T: Real>([x, y, z]: &Vec3Mut<'_, T>) -> Vec3<Eight<T>> {
+    [Eight(**x), Eight(**y), Eight(**z)]
+}
+
+#[inline(always)]
+fn put<T: Real>([x, y, z]: Vec3Mut<'_, T>, [a, b, c]: Vec3<Eight<T>>) {
+    *x = a.0;
+    *y = b.0;
+    *z = c.0;
+}
+
+/// A number of eight rows at a time.
+#[inline(always)]
+fn scalars<'p, T: Real>(layout: &Layout, plane: &'p [T]) -> impl Iterator<Item = Eight<T>> + use<'p, T> {
+    tiles(layout, plane).map(
+        #[inline(always)]
+        |x| Eight(*x),
+    )
+}
+
+/// D⁻¹ of eight rows at a time.
+#[inline(always)]
+fn blocks<'p, T: Real>(
+    layout: &Layout,
+    [a, b, c, d, e, f]: &'p [&mut [T]; 6],
+) -> impl Iterator<Item = Sym3<Eight<T>>> + use<'p, T> {
+    let first = tiles(layout, a).zip(tiles(layout, b)).zip(tiles(layout, c));
+    let last = tiles(layout, d).zip(tiles(layout, e)).zip(tiles(layout, f));
+    first.zip(last).map(
+        #[inline(always)]
+        |(((a, b), c), ((d, e), f))| Sym3([Eight(*a), Eight(*b), Eight(*c), Eight(*d), Eight(*e), Eight(*f)]),
+    )
+}
 
 /// x += a p, r −= a y, and then y = z = D⁻¹r. Answers Σ|rᵢ|²/μᵢ and rᵀz.
-///
-/// A tile's answers are gathered apart and then written: where they might overwrite what is still to be read, no rows
-/// could be taken together.
 #[inline(always)]
-#[expect(clippy::indexing_slicing)] // As in `row`.
-pub(crate) fn sweep<T: Real>(layout: &Layout, work: &mut Work<'_, T>, a: T) -> (T, T) {
-    let (mut betas, mut products) = (Lanes::new(), Lanes::new());
-    let Work { x, r, p, y, weight, inverse, .. } = work;
-    for at in tiles(layout) {
-        let weight = tile(weight, at);
-        let [xx, yy, zz, xy, xz, yz] = &*inverse;
-        let [xx, yy, zz] = [tile(xx, at), tile(yy, at), tile(zz, at)];
-        let [xy, xz, yz] = [tile(xy, at), tile(xz, at), tile(yz, at)];
-        let zeros = [[T::ZERO; TILE]; 3];
-        let (mut to_x, mut to_r, mut to_z) = (zeros, zeros, zeros);
-        let (mut beta, mut rz) = ([T::ZERO; TILE], [T::ZERO; TILE]);
-        {
-            let (x, r, p, y) = (x.tiles(at), r.tiles(at), p.tiles(at), y.tiles(at));
-            for i in 0..TILE {
-                put(&mut to_x, i, vec3::add_scaled(row(x, i), a, row(p, i)));
-                let residual = vec3::add_scaled(row(r, i), -a, row(y, i));
-                let z = Sym3([xx[i], yy[i], zz[i], xy[i], xz[i], yz[i]]).mul(residual);
-                put(&mut to_r, i, residual);
-                put(&mut to_z, i, z);
-                beta[i] = square(residual, weight[i]);
-                rz[i] = vec3::dot(residual, z);
-            }
-        }
-        x.put_tiles(at, to_x);
-        r.put_tiles(at, to_r);
-        y.put_tiles(at, to_z);
-        add_terms(&mut betas, &beta);
-        add_terms(&mut products, &rz);
+pub(crate) fn sweep<T: Real>(layout: &Layout, work: &mut Iterates<'_, T>, weight: &[T], a: T) -> (T, T) {
+    let (mut beta, mut rz) = (all(T::ZERO), all(T::ZERO));
+    let (plus, minus) = (all(a), all(-a));
+    let Iterates { x, r, p, y, inverse } = work;
+    let moved = vectors_mut(layout, x).zip(vectors(layout, p));
+    let left = vectors_mut(layout, r).zip(vectors_mut(layout, y));
+    let rows = scalars(layout, weight).zip(blocks(layout, inverse));
+    for (((x, p), (r, y)), (weight, inverse)) in moved.zip(left).zip(rows) {
+        let next = vec3::add_scaled(get(&x), plus, p);
+        put(x, next);
+        let residual = vec3::add_scaled(get(&r), minus, get(&y));
+        put(r, residual);
+        let z = inverse.mul(residual);
+        put(y, z);
+        beta = beta + square(residual, weight);
+        rz = rz + vec3::dot(residual, z);
     }
-    (betas.sum(), products.sum())
+    (Lanes::of(beta.0).sum(), Lanes::of(rz.0).sum())
+}
+
+/// x += a p, r −= a y. Answers Σ|rᵢ|²/μᵢ and the largest component of r.
+#[inline(always)]
+pub(crate) fn update<T: Real>(layout: &Layout, work: &mut Iterates<'_, T>, weight: &[T], a: T) -> (T, T) {
+    let (mut beta, mut most) = (all(T::ZERO), all(T::ZERO));
+    let (plus, minus) = (all(a), all(-a));
+    let Iterates { x, r, p, y, .. } = work;
+    let moved = vectors_mut(layout, x).zip(vectors(layout, p));
+    let left = vectors_mut(layout, r).zip(vectors(layout, y));
+    for (((x, p), (r, y)), weight) in moved.zip(left).zip(scalars(layout, weight)) {
+        let next = vec3::add_scaled(get(&x), plus, p);
+        put(x, next);
+        let residual = vec3::add_scaled(get(&r), minus, y);
+        put(r, residual);
+        beta = beta + square(residual, weight);
+        most = largest(most, residual);
+    }
+    (Lanes::of(beta.0).sum(), most.0.iter().fold(T::ZERO, |most, x| larger(most, *x)))
+}
+
+#[inline(always)]
+fn largest<T: Real>(most: Eight<T>, [a, b, c]: Vec3<Eight<T>>) -> Eight<T> {
+    larger_lanes(larger_lanes(larger_lanes(most, a.abs()), b.abs()), c.abs())
+}
+
+#[inline(always)]
+fn larger_lanes<T: Real>(most: Eight<T>, a: Eight<T>) -> Eight<T> {
+    most.zip(
+        a,
+        #[inline(always)]
+        |most, a| if most < a { a } else { most },
+    )
+}
+
+/// rᵀz, z being in y.
+#[inline(always)]
+pub(crate) fn dot<T: Real>(layout: &Layout, work: &Iterates<'_, T>) -> T {
+    let mut rz = all(T::ZERO);
+    for (r, z) in vectors(layout, &work.r).zip(vectors(layout, &work.y)) {
+        rz = rz + vec3::dot(r, z);
+    }
+    Lanes::of(rz.0).sum()
+}
+
+/// y = z = D⁻¹r
+#[inline(always)]
+pub(crate) fn precondition<T: Real>(layout: &Layout, work: &mut Iterates<'_, T>) {
+    let Iterates { r, y, inverse, .. } = work;
+    let rows = vectors(layout, r).zip(vectors_mut(layout, y)).zip(blocks(layout, inverse));
+    for ((r, y), inverse) in rows {
+        put(y, inverse.mul(r));
+    }
 }
 
 /// p = z + ρ p, z being in y.
 #[inline(always)]
-pub(crate) fn direction<T: Real>(layout: &Layout, work: &mut Work<'_, T>, ratio: T) {
-    let Work { p, y, .. } = work;
-    for at in tiles(layout) {
-        let mut turned = [[T::ZERO; TILE]; 3];
-        {
-            let (z, p) = (y.tiles(at), p.tiles(at));
-            for i in 0..TILE {
-                put(&mut turned, i, vec3::add_scaled(row(z, i), ratio, row(p, i)));
-            }
-        }
-        p.put_tiles(at, turned);
+pub(crate) fn direction<T: Real>(layout: &Layout, work: &mut Iterates<'_, T>, ratio: T) {
+    let Iterates { p, y, .. } = work;
+    for (p, z) in vectors_mut(layout, p).zip(vectors(layout, y)) {
+        let next = vec3::add_scaled(z, all(ratio), get(&p));
+        put(p, next);
     }
-}
-
-#[inline(always)]
-#[expect(clippy::indexing_slicing)] // As in `row`.
-fn put<T: Real>([x, y, z]: &mut [Tile<T>; 3], i: usize, value: vec3::Vec3<T>) {
-    [x[i], y[i], z[i]] = value;
 }

@@ -2,9 +2,10 @@
 
 use std::fmt;
 
+use hooke::solver::{Answer, Island};
 use hooke::{
-    BandedLdl, BlockJacobi, Force, MassSpring, Memory, Multigrid, Real, Solve, Solver, SparseLdl, StepError,
-    Stop, WideJacobi,
+    BandedLdl, BlockJacobi, Force, Law, MassSpring, Memory, Multigrid, Real, Solve, Solver, SparseLdl,
+    StepError, Stop, WideJacobi,
 };
 
 use crate::host::Host;
@@ -67,7 +68,7 @@ impl<T: Real> AnySolver<T> {
         match method {
             Method::Jacobi => Self::Jacobi(BlockJacobi),
             Method::Wide => {
-                let (numbers, words) = WideJacobi::needs_of(scene, &mut vec![0; model.springs.len()]);
+                let (numbers, words) = WideJacobi::needs_of(scene, true);
                 let bytes = numbers * size_of::<T>() + words * size_of::<u32>();
                 let solver = WideJacobi::new(vec![T::ZERO; numbers], vec![0; words], Host::new());
                 Self::Wide(Box::new(solver), bytes)
@@ -113,6 +114,20 @@ impl<T: Real> AnySolver<T> {
 }
 
 impl<T: Real> Solver<T> for AnySolver<T> {
+    fn answer<F: Force<T>, L: Law>(
+        &mut self,
+        to: Island<'_, '_, T, F>,
+        stop: &Stop<T>,
+    ) -> Result<Answer<T>, StepError> {
+        match self {
+            Self::Jacobi(solver) => solver.answer::<F, L>(to, stop),
+            Self::Wide(solver, _) => solver.as_mut().answer::<F, L>(to, stop),
+            Self::Multigrid(solver, _) => solver.as_mut().answer::<F, L>(to, stop),
+            Self::Banded(solver, _) => solver.answer::<F, L>(to, stop),
+            Self::Ldl(solver, _) => solver.as_mut().answer::<F, L>(to, stop),
+        }
+    }
+
     fn solve<F: Force<T>>(
         &mut self,
         problem: hooke::solver::Problem<'_, '_, T, F>,

@@ -1,22 +1,36 @@
 //! Block-Jacobi PCG in lanes.
 
-use hooke::{Dispatch, Portable, Solve, Solver, StepError, Stop, WideJacobi, solver::Problem};
+use hooke::solver::Problem;
+use hooke::{Dispatch, Multigrid, Portable, Solve, Solver, StepError, Stop, WideJacobi};
 
 use crate::shared::*;
 
 /// The solver in borrowed memory.
 type Wide<'a, T> = WideJacobi<&'a mut [T], &'a mut [u32]>;
+/// Multigrid in borrowed memory.
+type Grid<'a> = Multigrid<&'a mut [f32], &'a mut [u32]>;
+/// The solver around it.
+type Around<'a, T> = hooke::Wide<&'a mut [T], &'a mut [u32], Portable, Grid<'a>>;
+/// A step by it.
+type Step<'a, T, P> = hooke::LinearlyImplicitEuler<T, All<'a, T>, P>;
 
 crate::entry_point::entry_points! {
-    WideJacobi::new<'a>(numbers: &'a mut [T], words: &'a mut [u32]) -> Wide<'a, T> {
+    Wide::new<'a>(numbers: &'a mut [T], words: &'a mut [u32]) -> Wide<'a, T> {
         WideJacobi::new(numbers, words, Portable)
     }
-    WideJacobi::needs_of(s: &mut S<T>, scratch: &mut [u32]) -> (usize, usize) { WideJacobi::needs_of(s, scratch) }
-    WideJacobi::in_lanes(wide: &Wide<'_, T>) -> bool { wide.in_lanes() }
+    Wide::needs_of(s: &mut S<T>, damped: bool) -> (usize, usize) { WideJacobi::needs_of(s, damped) }
+    Wide::in_lanes(wide: &Wide<'_, T>) -> bool { wide.in_lanes() }
     Solver::solve[wide](
         wide: &mut Wide<'_, T>, problem: Problem<'_, '_, T, All<'_, T>>, stop: &Stop<T>,
     ) -> Result<Solve<T>, StepError> {
         wide.solve(problem, stop)
+    }
+    Wide::around<'a>(wide: Wide<'a, T>, grid: Grid<'a>) -> Around<'a, T> { wide.around(grid) }
+    Solver::answer[wide](s: &mut S<T>, euler: &mut Step<'_, T, Wide<'_, T>>) -> Stepped<T> { s.step(euler) }
+    Preconditions::solve_in_lanes[multigrid](
+        s: &mut S<T>, euler: &mut Step<'_, T, Around<'_, T>>,
+    ) -> Stepped<T> {
+        s.step(euler)
     }
     Dispatch::run(x: T) -> T { Portable.run(|| x + x) }
 }

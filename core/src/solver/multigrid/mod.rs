@@ -26,7 +26,7 @@ use crate::report::Solve;
 use crate::solver::{Problem, Solver, Stop, pcg};
 use crate::system::System;
 use crate::vec3::Vec3;
-use crate::wide::{Dispatch, Portable};
+use crate::wide::{Dispatch, Portable, Preconditions, Widened};
 use analysis::DENSE;
 use preconditioner::Preconditioner;
 
@@ -174,5 +174,20 @@ impl<T: Real, N: AsMut<[f32]>, W: AsMut<[u32]>, D: Dispatch> Solver<T> for Multi
         let mut preconditioner = Preconditioner::empty(self.dispatch);
         self.prepare(&system, &mut preconditioner)?;
         Ok(pcg::solve_by(&system, &mut preconditioner, vectors, stop, free))
+    }
+}
+
+impl<T: Real, N: AsMut<[f32]>, W: AsMut<[u32]>, D: Dispatch> Preconditions<T> for Multigrid<N, W, D> {
+    const READS_SPRINGS: bool = true;
+
+    fn solve_in_lanes<F: Force<T>, E: Dispatch>(
+        &mut self,
+        lanes: Widened<'_, '_, T, F, E>,
+        x: &mut [Vec3<T>],
+        stop: &Stop<T>,
+    ) -> Result<Solve<T>, StepError> {
+        let mut preconditioner = Preconditioner::empty(self.dispatch);
+        self.prepare(&lanes.system, &mut preconditioner)?;
+        Ok(lanes.solve(preconditioner, x, stop))
     }
 }

@@ -17,7 +17,10 @@ use crate::solver::pcg::Iteration;
 use crate::sym3::Sym3;
 use crate::system::System;
 use crate::vec3::{self, Vec3};
-use crate::wide::Dispatch;
+use crate::wide::layout::Layout;
+use crate::wide::solve::Sweep;
+use crate::wide::work::Iterates;
+use crate::wide::{self, Dispatch};
 
 /// The hierarchy with this step's numbers.
 pub(super) struct Preconditioner<'a, T, D> {
@@ -73,27 +76,83 @@ impl<'a, T: Real, D: Dispatch> Preconditioner<'a, T, D> {
     /// z = B r, `most` the largest component of r; answers rᵀz.
     #[inline(never)]
     pub(super) fn apply(&mut self, r: &[Vec3<T>], most: T, z: &mut [Vec3<T>]) -> T {
-        let down = T::ONE / most;
-        let up = most * self.scale;
-        let mut product = Lanes::new();
-        let Some(Some(finest)) = self.hierarchy.levels.first_mut() else { return T::ZERO };
-        if !(most > T::ZERO && down.is_finite() && up.is_finite()) {
+        if !self.cycle(r.iter().copied(), most) {
             z.fill([T::ZERO; 3]);
             return T::ZERO;
         }
-        let [x, y, z_plane] = &mut finest.r.0;
-        for (((x, y), z), r) in x.iter_mut().zip(y.iter_mut()).zip(z_plane.iter_mut()).zip(r) {
-            [*x, *y, *z] = vec3::scale(down, *r).map(|r| r.to_f64() as f32);
-        }
-        self.hierarchy.cycle(self.dispatch);
-        let Some(Some(finest)) = self.hierarchy.levels.first() else { return T::ZERO };
-        let [x, y, z_plane] = &finest.x.0;
-        let solved = x.iter().zip(y.iter()).zip(z_plane.iter());
-        for (i, ((z, r), ((x, y), z_of))) in z.iter_mut().zip(r).zip(solved).enumerate() {
-            *z = vec3::scale(up, [*x, *y, *z_of].map(|x| T::from_f64(f64::from(x))));
+        let mut product = Lanes::new();
+        for (i, ((z, r), solved)) in z.iter_mut().zip(r).zip(self.solved(most)).enumerate() {
+            *z = solved;
             product.add(i, vec3::dot(*r, *z));
         }
         product.sum()
+    }
+
+    /// A cycle for r, whose largest component is `most`; answers whether there is one: not if r is 0 or not finite.
+    #[inline(always)]
+    fn cycle(&mut self, r: impl Iterator<Item = Vec3<T>>, most: T) -> bool {
+        let (down, up) = (T::ONE / most, most * self.scale);
+        let Some(Some(finest)) = self.hierarchy.levels.first_mut() else { return false };
+        if !(most > T::ZERO && down.is_finite() && up.is_finite()) {
+            return false;
+        }
+        let [x, y, z] = &mut finest.r.0;
+        for (((x, y), z), [a, b, c]) in x.iter_mut().zip(y.iter_mut()).zip(z.iter_mut()).zip(r) {
+            *x = (down * a).to_f64() as f32;
+            *y = (down * b).to_f64() as f32;
+            *z = (down * c).to_f64() as f32;
+        }
+        self.hierarchy.cycle(self.dispatch);
+        true
+    }
+
+    /// What it found.
+    #[inline(always)]
+    fn solved(&self, most: T) -> impl Iterator<Item = Vec3<T>> {
+        let up = most * self.scale;
+        let finest = self.hierarchy.levels.first().and_then(|level| level.as_ref());
+        let planes = finest.map(|level| &level.x.0);
+        let rows = planes.map(|[x, y, z]| x.iter().zip(y.iter()).zip(z.iter()));
+        rows.into_iter().flatten().map(move |((x, y), z)| {
+            let of = |x: f32| up * T::from_f64(f64::from(x));
+            [of(*x), of(*y), of(*z)]
+        })
+    }
+}
+
+impl<T: Real, D: Dispatch> wide::solve::Preconditioner<T> for Preconditioner<'_, T, D> {
+    #[inline(always)]
+    fn sweep(&mut self, to: Sweep<'_, '_, T>) -> (T, T) {
+        let (beta, most) = wide::sweep::update(to.layout, to.work, to.weight, to.step);
+        if !(T::HALF * beta > to.target) {
+            return (beta, T::ZERO);
+        }
+        self.in_lanes(to.layout, to.work, to.rows, most);
+        (beta, wide::sweep::dot(to.layout, to.work))
+    }
+
+    #[inline(always)]
+    fn apply(&mut self, to: Sweep<'_, '_, T>) {
+        let most = wide::sweep::update(to.layout, to.work, to.weight, T::ZERO).1;
+        self.in_lanes(to.layout, to.work, to.rows, most);
+    }
+}
+
+impl<T: Real, D: Dispatch> Preconditioner<'_, T, D> {
+    /// y = B r in planes of places.
+    #[inline(never)]
+    fn in_lanes(&mut self, layout: &Layout, work: &mut Iterates<'_, T>, rows: &[u32], most: T) {
+        let Iterates { r, y, .. } = work;
+        let places = || rows.iter().map(|particle| layout.place(*particle));
+        if self.cycle(places().map(|at| r.row(at)), most) {
+            for (at, z) in places().zip(self.solved(most)) {
+                y.put(at, z);
+            }
+        } else {
+            for at in places() {
+                y.put(at, [T::ZERO; 3]);
+            }
+        }
     }
 }
 

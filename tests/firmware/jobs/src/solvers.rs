@@ -20,7 +20,7 @@ type Cloth<T> = Scene<T, PARTICLES, SPRINGS, Hookean>;
 const BANDED: usize = BandedLdl::needs(PARTICLES, SIDE + 1);
 const GRID: (usize, usize) = Multigrid::needs(PARTICLES, SPRINGS);
 /// Numbers and words of the others: more than they need.
-const NUMBERS: usize = 8192;
+const NUMBERS: usize = 12288;
 const WORDS: usize = 4096;
 
 /// A static list of zeros.

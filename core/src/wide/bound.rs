@@ -1,0 +1,177 @@
+//! The residual with its rounding bound and both bounds on the error's energy, in lanes, by the formulas and in the order of
+//! [`crate::bound`]; its sums run over places instead of rows.
+
+use crate::bound::{cover, square, unit};
+use crate::hessian::Hessian;
+use crate::lanes::Lanes;
+use crate::real::Real;
+use crate::vec3::{self, Vec3};
+use crate::wide::eight::{Eight, Planes, all, load, where_positive};
+use crate::wide::gather::{Gather, Matrix, gather};
+use crate::wide::layout::Layout;
+use crate::wide::work::hessians;
+
+/// |a| by component.
+#[inline(always)]
+fn magnitude<T: Real>(a: Vec3<Eight<T>>) -> Vec3<Eight<T>> {
+    let [x, y, z] = a;
+    [x.abs(), y.abs(), z.abs()]
+}
+
+/// 7·(|α||d| + |w|(|w|·|d|)): what the rounding of a spring's term cannot exceed, in units of u.
+#[inline(always)]
+fn term_error<T: Real>(h: &Hessian<Eight<T>>, d: Vec3<Eight<T>>) -> Vec3<Eight<T>> {
+    let (w, d) = (magnitude(h.w), magnitude(d));
+    let along = vec3::dot(w, d) + all(T::MIN_POSITIVE);
+    vec3::scale(all(T::from_count(7)), vec3::add_scaled(vec3::scale(h.alpha.abs(), d), along, w))
+}
+
+/// Where a running sum and the bound on its rounding, in units of u, go.
+struct Running<'y, 'a, 'b, T> {
+    y: &'y mut Planes<'a, T>,
+    g: &'y mut Planes<'b, T>,
+}
+
+#[inline(always)]
+fn add<T: Real>(
+    [y, g]: [Vec3<Eight<T>>; 2],
+    term: Vec3<Eight<T>>,
+    rounding: Vec3<Eight<T>>,
+) -> [Vec3<Eight<T>>; 2] {
+    let y = vec3::add(y, term);
+    [y, vec3::add(vec3::add(g, magnitude(y)), rounding)]
+}
+
+impl<T: Real> Gather<T> for Running<'_, '_, '_, T> {
+    type Rows = [Vec3<Eight<T>>; 2];
+
+    #[inline(always)]
+    fn new() -> Self::Rows {
+        [[all(T::ZERO); 3]; 2]
+    }
+    #[inline(always)]
+    fn above(rows: Self::Rows, h: Hessian<Eight<T>>, apart: Vec3<Eight<T>>) -> Self::Rows {
+        add(rows, h.mul(apart), term_error(&h, apart))
+    }
+    #[inline(always)]
+    fn inertia(rows: Self::Rows, m: Eight<T>, here: Vec3<Eight<T>>) -> Self::Rows {
+        let term = vec3::scale(m, here);
+        add(rows, term, magnitude(term))
+    }
+    #[inline(always)]
+    fn own(rows: Self::Rows, h: Hessian<Eight<T>>, apart: Vec3<Eight<T>>) -> Self::Rows {
+        add(rows, h.mul(apart), term_error(&h, apart))
+    }
+    #[inline(always)]
+    fn put_down(&mut self, at: usize, [y, g]: Self::Rows) {
+        self.y.store(at, y);
+        self.g.store(at, g);
+    }
+    #[inline(always)]
+    fn take_up(&self, at: usize) -> Self::Rows {
+        [self.y.load(at), self.g.load(at)]
+    }
+    #[inline(always)]
+    fn finish(&mut self, at: usize, m: Eight<T>, [y, g]: Self::Rows) {
+        self.y.store(at, where_positive(m, y));
+        self.g.store(at, where_positive(m, g));
+    }
+}
+
+/// y = A x over the runs, and in g the running bound, before b and δ.
+#[inline(always)]
+pub(crate) fn product<T: Real>(
+    matrix: Matrix<'_, T>,
+    x: &Planes<'_, T>,
+    y: &mut Planes<'_, T>,
+    g: &mut Planes<'_, T>,
+) {
+    gather(matrix, x, &mut Running { y, g });
+}
+
+/// r = b − y and δ = u(1 + 2⁻⁴)(g + |r|) + what underflow can lose; answers Σ |rᵢ|²/μᵢ.
+#[inline(always)]
+pub(crate) fn finish<T: Real>(
+    layout: &Layout,
+    b: &Planes<'_, T>,
+    weight: &[T],
+    r: &mut Planes<'_, T>,
+    error: &mut Planes<'_, T>,
+) -> T {
+    let unit = all(unit::<T>());
+    let mut sum = Lanes::new();
+    for at in layout.tiles() {
+        let left = vec3::sub(b.load(at), r.load(at));
+        let g = vec3::add(error.load(at), magnitude(left));
+        let least = [all(T::MIN_POSITIVE); 3];
+        error.store(at, vec3::add_scaled(least, unit, g));
+        r.store(at, left);
+        sum.add_lane(square(left, load(weight, at)).0);
+    }
+    sum.sum()
+}
+
+/// ½ Σ |rᵢ|²/μᵢ, not rounded up.
+#[inline(always)]
+pub(crate) fn weighted<T: Real>(layout: &Layout, r: &Planes<'_, T>, weight: &[T]) -> T {
+    let mut sum = Lanes::new();
+    for at in layout.tiles() {
+        sum.add_lane(square(r.load(at), load(weight, at)).0);
+    }
+    T::HALF * sum.sum()
+}
+
+/// ½ Σ (|rᵢ| + δᵢ)²/μᵢ, rounded up.
+#[inline(always)]
+pub(crate) fn upper<T: Real>(layout: &Layout, r: &Planes<'_, T>, error: &Planes<'_, T>, weight: &[T]) -> T {
+    let mut sum = Lanes::new();
+    for at in layout.tiles() {
+        let most = vec3::add(magnitude(r.load(at)), error.load(at));
+        sum.add_lane(square(most, load(weight, at)).0);
+    }
+    let (factor, term) = cover(3 * layout.places);
+    T::HALF * sum.sum() * factor + term
+}
+
+/// Σ xᵀz, Σ |x|ᵀ|z| and Σ eᵀ|z|.
+#[inline(always)]
+pub(crate) fn products<T: Real>(
+    layout: &Layout,
+    x: &Planes<'_, T>,
+    error: &Planes<'_, T>,
+    z: &Planes<'_, T>,
+) -> [T; 3] {
+    let (mut sum, mut size, mut loss) = (Lanes::new(), Lanes::new(), Lanes::new());
+    for at in layout.tiles() {
+        let (x, z) = (x.load(at), z.load(at));
+        sum.add_lane(vec3::dot(x, z).0);
+        let z = magnitude(z);
+        size.add_lane(vec3::dot(magnitude(x), z).0);
+        loss.add_lane(vec3::dot(error.load(at), z).0);
+    }
+    [sum.sum(), size.sum(), loss.sum()]
+}
+
+/// What rounding x itself leaves after so many updates, β of δ + k u |A||x|; see [`crate::bound::attainable`]. Into `size`.
+#[inline(always)]
+pub(crate) fn attainable<T: Real>(
+    Matrix { layout, hessians: planes, inertia }: Matrix<'_, T>,
+    x: &Planes<'_, T>,
+    size: &mut Planes<'_, T>,
+) {
+    let n = layout.plane();
+    for at in layout.tiles() {
+        let here = magnitude(x.load(at));
+        let m = load(inertia, at);
+        let mut sum = vec3::scale(m, here);
+        for (run, d) in layout.distances().iter().enumerate() {
+            let d = *d as usize;
+            for (spring, other) in [(at - d, at - d), (at, at + d)] {
+                let h = hessians(planes, n, run, spring);
+                let most = h.alpha.abs() + vec3::dot(h.w, h.w);
+                sum = vec3::add_scaled(sum, most, vec3::add(here, magnitude(x.load(other))));
+            }
+        }
+        size.store(at, where_positive(m, sum));
+    }
+}

@@ -1,0 +1,156 @@
+//! One island's step in lanes: load, assemble, certify, and where the certificate fails clamp and certify again.
+
+use crate::assembly::Assembled;
+use crate::error::StepError;
+use crate::force::Force;
+use crate::hessian::{Hessian, Scaling};
+use crate::law::Law;
+use crate::parts::IslandParts;
+use crate::real::Real;
+use crate::vec3;
+use crate::wide::assembly::{certify, charge, clamp, fails, gather, linearize};
+use crate::wide::dispatch::Dispatch;
+use crate::wide::eight::load as load_lanes;
+use crate::wide::layout::Layout;
+use crate::wide::load::load;
+use crate::wide::work::{Front, Workshop};
+
+/// What an island is assembled from.
+pub(crate) struct Givens<'g, 'a, T, F, D> {
+    pub(crate) island: &'g IslandParts<'a, T>,
+    pub(crate) forces: &'g mut F,
+    pub(crate) h: T,
+    pub(crate) scaling: Scaling<T>,
+    pub(crate) layout: &'g Layout,
+    pub(crate) words: &'g [u32],
+    pub(crate) dispatch: D,
+}
+
+impl<T: Real, F: Force<T>, D: Dispatch> Givens<'_, '_, T, F, D> {
+    /// A, b and μ into the front; `None` if the layout is not the island's any more.
+    pub(crate) fn assemble<L: Law>(
+        &mut self,
+        front: &mut Front<'_, T>,
+        workshop: &mut Workshop<'_, T>,
+    ) -> Result<Option<Assembled>, StepError> {
+        if !load::<T, F, L>(self.island, self.forces, self.layout, self.words, front, workshop) {
+            return Ok(None);
+        }
+        let points = F::ANCHORS && self.island.vectors.y.iter().any(|mark| mark[0] != T::ZERO);
+        for run in 0..3 * self.layout.runs {
+            let first = run * self.layout.plane();
+            if let Some(margin) = workshop.pulls.get_mut(first..first + self.layout.pad) {
+                margin.fill(T::ZERO);
+            }
+        }
+        let mut replaced = self.linearize::<L>(front, workshop);
+        if points {
+            replaced += self.forces.linearize(&self.island.matrix.rows, self.scaling);
+            self.add_points(front, workshop, -T::ONE);
+            self.charge_points(front);
+        }
+        let certified = self.certify(front);
+        let clamped = if certified { 0 } else { self.project::<L>(front, workshop, points)? };
+        let free = self.island.anchors == 0 && !points;
+        Ok(Some(Assembled {
+            clamped: replaced + clamped,
+            certified: certified && replaced == 0,
+            points,
+            free,
+        }))
+    }
+
+    fn linearize<L: Law>(&self, front: &mut Front<'_, T>, workshop: &mut Workshop<'_, T>) -> u32 {
+        let (layout, h, scaling) = (self.layout, self.h, self.scaling);
+        self.dispatch.run(
+            #[inline(always)]
+            || {
+                let replaced = if F::DAMPS {
+                    linearize::<T, L, true>(layout, front, workshop, h, scaling)
+                } else {
+                    linearize::<T, L, false>(layout, front, workshop, h, scaling)
+                };
+                gather(layout, front, workshop.pulls);
+                charge(layout, front);
+                replaced
+            },
+        )
+    }
+
+    fn certify(&self, front: &mut Front<'_, T>) -> bool {
+        self.dispatch.run(
+            #[inline(always)]
+            || certify(self.layout, front),
+        )
+    }
+
+    /// See [`crate::assembly`].
+    #[inline(never)]
+    fn project<L: Law>(
+        &mut self,
+        front: &mut Front<'_, T>,
+        workshop: &mut Workshop<'_, T>,
+        points: bool,
+    ) -> Result<u32, StepError> {
+        let (layout, scaling) = (self.layout, self.scaling);
+        let mut clamped = self.dispatch.run(
+            #[inline(always)]
+            || {
+                let clamped = if F::DAMPS {
+                    clamp::<T, L, true>(layout, front, workshop, scaling)
+                } else {
+                    clamp::<T, L, false>(layout, front, workshop, scaling)
+                };
+                gather(layout, front, workshop.pulls);
+                clamped
+            },
+        );
+        if points {
+            self.add_points(front, workshop, T::ONE);
+            let rows = self.island.matrix.rows;
+            let fails = |row: usize| {
+                let at = rows.particle.get(row).map(|particle| layout.place(*particle));
+                !at.and_then(|at| front.mu.get(at)).is_some_and(|mu| *mu > T::ZERO)
+            };
+            clamped += self.forces.clamp(&rows, scaling, fails);
+            self.add_points(front, workshop, -T::ONE);
+        }
+        self.dispatch.run(
+            #[inline(always)]
+            || charge(layout, front),
+        );
+        if points {
+            self.charge_points(front);
+        }
+        if self.certify(front) {
+            return Ok(clamped);
+        }
+        let failing = layout.tiles().find_map(|at| {
+            let lanes = fails(load_lanes(front.inertia, at), load_lanes(front.mu, at));
+            let lane = lanes.0.iter().position(|fails| *fails > T::ZERO)?;
+            Some(layout.base + at - layout.pad + lane)
+        });
+        Err(StepError::NotCertified(failing.unwrap_or(0)))
+    }
+
+    /// b += sign · Σ H q̇ over point springs.
+    fn add_points(&self, front: &mut Front<'_, T>, workshop: &Workshop<'_, T>, sign: T) {
+        self.each_point(|at, hessian| {
+            let pull = hessian.mul(workshop.velocity.row(at));
+            front.b.put(at, vec3::add_scaled(front.b.row(at), sign, pull));
+        });
+    }
+
+    fn charge_points(&self, front: &mut Front<'_, T>) {
+        self.each_point(|at, hessian| crate::certificate::charge(front.mu, at, T::ONE, &hessian));
+    }
+
+    fn each_point(&self, mut visit: impl FnMut(usize, Hessian<T>)) {
+        let rows = self.island.matrix.rows;
+        self.forces.hessians(&rows, &mut |row, hessian| {
+            if let Some(particle) = rows.particle.get(row) {
+                visit(self.layout.place(*particle), hessian);
+            }
+        });
+    }
+}

@@ -1,0 +1,337 @@
+//! A certified solve in lanes: what [`crate::solver::pcg::drive`] asks for, on planes.
+
+use crate::bound::gain;
+use crate::force::Force;
+use crate::hessian::Hessian;
+use crate::lanes::Lanes as Sums;
+use crate::real::Real;
+use crate::report::Solve;
+use crate::solver::{Stop, pcg};
+use crate::sym3::Sym3;
+use crate::system::System;
+use crate::vec3::{self, Vec3};
+use crate::wide::dispatch::Dispatch;
+use crate::wide::eight::{Planes, all, load, store, where_positive};
+use crate::wide::gather::Matrix;
+use crate::wide::layout::Layout;
+use crate::wide::work::{Front, Iterates};
+use crate::wide::{bound, diagonal, product, sweep};
+
+/// One island in lanes, assembled; opaque.
+pub struct Widened<'s, 'a, T, F, D> {
+    pub(crate) layout: Layout,
+    pub(crate) front: Front<'a, T>,
+    pub(crate) work: Iterates<'a, T>,
+    pub(crate) system: System<'s, T, F>,
+    pub(crate) dispatch: D,
+    /// Nothing holds this island
+    pub(crate) free: bool,
+}
+
+impl<T: Real, F: Force<T>, D: Dispatch> Widened<'_, '_, T, F, D> {
+    /// D⁻¹ into the work.
+    pub(crate) fn invert_diagonal(&mut self) {
+        let Self { layout, front, work, system, dispatch, .. } = self;
+        let Front { inertia, hessians, .. } = front;
+        dispatch.run(
+            #[inline(always)]
+            || diagonal::blocks(layout, hessians, inertia, &mut work.inverse),
+        );
+        each_point(system, layout, |at, h| {
+            let added = Sym3::scalar(h.alpha).plus_outer(h.w).0;
+            for (plane, added) in work.inverse.iter_mut().zip(added) {
+                if let Some(entry) = plane.get_mut(at) {
+                    *entry += added;
+                }
+            }
+        });
+        dispatch.run(
+            #[inline(always)]
+            || diagonal::invert(layout, inertia, &mut work.inverse),
+        );
+    }
+
+    /// Solves it; the answer goes to `x`.
+    pub(crate) fn solve(
+        self,
+        preconditioner: impl Preconditioner<T>,
+        x: &mut [Vec3<T>],
+        stop: &Stop<T>,
+    ) -> Solve<T> {
+        let Self { layout, front, work, system, dispatch, free } = self;
+        let mut lanes = Lanes { layout, front, work, system, dispatch, preconditioner };
+        let solve = pcg::drive(&mut lanes, stop, free);
+        for (x, particle) in x.iter_mut().zip(lanes.system.matrix.rows.particle) {
+            *x = lanes.work.x.row(layout.place(*particle));
+        }
+        solve
+    }
+}
+
+/// The same with what preconditions it.
+struct Lanes<'s, 'a, T, F, D, P> {
+    layout: Layout,
+    front: Front<'a, T>,
+    work: Iterates<'a, T>,
+    system: System<'s, T, F>,
+    dispatch: D,
+    preconditioner: P,
+}
+
+/// z = B r ≈ A⁻¹ r in lanes.
+pub(crate) trait Preconditioner<T: Real> {
+    /// x += a p, r −= a y, and then y = z = B r, unless ½ Σ|rᵢ|²/μᵢ ≤ target. Answers Σ|rᵢ|²/μᵢ and rᵀz.
+    fn sweep(&mut self, to: Sweep<'_, '_, T>) -> (T, T);
+    /// y = z = B r
+    fn apply(&mut self, to: Sweep<'_, '_, T>);
+}
+
+/// What a preconditioner works on.
+pub(crate) struct Sweep<'w, 'a, T> {
+    pub(crate) layout: &'w Layout,
+    pub(crate) work: &'w mut Iterates<'a, T>,
+    pub(crate) weight: &'w [T],
+    /// The particle of each row
+    pub(crate) rows: &'w [u32],
+    /// a
+    pub(crate) step: T,
+    pub(crate) target: T,
+}
+
+/// D⁻¹, which lies in the work.
+pub(crate) struct Diagonal;
+
+impl<T: Real> Preconditioner<T> for Diagonal {
+    #[inline(always)]
+    fn sweep(&mut self, to: Sweep<'_, '_, T>) -> (T, T) {
+        sweep::sweep(to.layout, to.work, to.weight, to.step)
+    }
+    #[inline(always)]
+    fn apply(&mut self, to: Sweep<'_, '_, T>) {
+        sweep::precondition(to.layout, to.work);
+    }
+}
+
+/// The point springs: place and H of each.
+#[inline(always)]
+pub(crate) fn each_point<T: Real, F: Force<T>>(
+    system: &System<'_, T, F>,
+    layout: &Layout,
+    mut visit: impl FnMut(usize, Hessian<T>),
+) {
+    system.each_point(
+        #[inline(always)]
+        |row, h| {
+            if let Some(particle) = system.matrix.rows.particle.get(row) {
+                visit(layout.place(*particle), h);
+            }
+        },
+    );
+}
+
+/// r = b − A x with δ; answers Σ|rᵢ|²/μᵢ.
+#[inline(always)]
+fn residual<T: Real, F: Force<T>>(
+    system: &System<'_, T, F>,
+    matrix: Matrix<'_, T>,
+    weight: &[T],
+    [b, x]: [&Planes<'_, T>; 2],
+    [r, error]: [&mut Planes<'_, T>; 2],
+) -> T {
+    let layout = matrix.layout;
+    bound::product(matrix, x, r, error);
+    each_point(
+        system,
+        layout,
+        #[inline(always)]
+        |at, h| {
+            let (d, y) = (x.row(at), r.row(at));
+            let (y, rounding) = (vec3::add(y, h.mul(d)), crate::bound::term_error(&h, d));
+            r.put(at, y);
+            let g = vec3::add(vec3::add(error.row(at), vec3::map(y, T::abs)), rounding);
+            error.put(at, g);
+        },
+    );
+    bound::finish(layout, b, weight, r, error)
+}
+
+impl<T: Real, F: Force<T>, D: Dispatch, P: Preconditioner<T>> pcg::Iterates<T> for Lanes<'_, '_, T, F, D, P> {
+    fn start(&mut self) -> bool {
+        let Self { layout, front, work, dispatch, .. } = self;
+        dispatch.run(
+            #[inline(always)]
+            || {
+                let mut something = all(T::ZERO);
+                for at in layout.tiles() {
+                    let m = load(front.inertia, at);
+                    let weight = m.positive_then(all(T::ONE) / load(front.mu, at));
+                    store(front.mu, at, weight);
+                    let (b, zero) = (front.b.load(at), [all(T::ZERO); 3]);
+                    work.r.store(at, b);
+                    for planes in [&mut work.x, &mut work.p] {
+                        planes.store(at, zero);
+                    }
+                    for b in b {
+                        something = something.zip(
+                            b,
+                            #[inline(always)]
+                            |sum, b| if b == T::ZERO { sum } else { T::ONE },
+                        );
+                    }
+                }
+                !something.any(
+                    #[inline(always)]
+                    |b| b != T::ZERO,
+                )
+            },
+        )
+    }
+
+    fn beta(&mut self) -> T {
+        let Self { layout, front, work, dispatch, .. } = self;
+        dispatch.run(
+            #[inline(always)]
+            || bound::weighted(layout, &work.r, front.mu),
+        )
+    }
+
+    fn check(&mut self, free: bool) -> T {
+        let Self { layout, front, work, system, dispatch, .. } = self;
+        let Front { b, inertia, mu, hessians, .. } = front;
+        dispatch.run(
+            #[inline(always)]
+            || {
+                if free {
+                    keep_momentum(layout, inertia, b, &mut work.x);
+                }
+                let Iterates { x, r, p, .. } = work;
+                T::HALF * residual(system, Matrix { layout, hessians, inertia }, mu, [b, x], [r, p])
+            },
+        )
+    }
+
+    fn rounding(&mut self) -> T {
+        bound::weighted(&self.layout, &self.work.p, self.front.mu)
+    }
+
+    #[cold]
+    fn attainable(&mut self, updates: u32) -> T {
+        let Self { layout, front, work, system, .. } = self;
+        let Iterates { x, p, y, .. } = work;
+        let (hessians, inertia) = (&*front.hessians, &*front.inertia);
+        bound::attainable(Matrix { layout, hessians, inertia }, x, y);
+        each_point(system, layout, |at, h| {
+            let most = h.alpha.abs() + vec3::dot(h.w, h.w);
+            y.put(at, vec3::add_scaled(y.row(at), most, vec3::map(x.row(at), T::abs)));
+        });
+        let unit = all(T::from_count(updates as usize) * T::UNIT_ROUNDOFF);
+        for at in layout.tiles() {
+            let size = vec3::add_scaled(p.load(at), unit, y.load(at));
+            y.store(at, size);
+        }
+        let beta = bound::weighted(layout, y, front.mu);
+        y.clear_margins(layout.pad);
+        beta
+    }
+
+    fn iterate(&mut self, target: T, max_iterations: u32, iterations: &mut u32) -> bool {
+        let Self { layout, front, work, system, dispatch, preconditioner } = self;
+        dispatch.run(
+            #[inline(always)]
+            || {
+                for at in layout.tiles() {
+                    for planes in [&mut work.p, &mut work.y] {
+                        planes.store(at, [all(T::ZERO); 3]);
+                    }
+                }
+                // The first sweep has no step to make: it finds z.
+                let (mut step, mut rz) = (T::ZERO, T::ZERO);
+                loop {
+                    let rows = system.matrix.rows.particle;
+                    let to = Sweep { layout, work, weight: front.mu, rows, step, target };
+                    let (beta, next) = preconditioner.sweep(to);
+                    if !(T::HALF * beta > target) || *iterations >= max_iterations {
+                        return false;
+                    }
+                    if !(next > T::ZERO) {
+                        return true;
+                    }
+                    sweep::direction(layout, work, if rz > T::ZERO { next / rz } else { T::ZERO });
+                    let Iterates { p, y, .. } = &mut *work;
+                    let (hessians, inertia) = (&*front.hessians, &*front.inertia);
+                    let mut form = product::over_runs(Matrix { layout, hessians, inertia }, p, y);
+                    each_point(
+                        system,
+                        layout,
+                        #[inline(always)]
+                        |at, h| {
+                            let (product, energy) = h.mul_and_form(p.row(at));
+                            y.put(at, vec3::add(y.row(at), product));
+                            form.add(at, energy);
+                        },
+                    );
+                    let curvature = form.sum();
+                    if !(curvature > T::ZERO) {
+                        return true;
+                    }
+                    step = next / curvature;
+                    rz = next;
+                    *iterations += 1;
+                }
+            },
+        )
+    }
+
+    fn upper(&mut self) -> T {
+        let Self { layout, front, work, dispatch, .. } = self;
+        dispatch.run(
+            #[inline(always)]
+            || bound::upper(layout, &work.r, &work.p, front.mu),
+        )
+    }
+
+    fn lower(&mut self) -> T {
+        let Self { layout, front, work, system, dispatch, preconditioner } = self;
+        let Front { b, inertia, mu, hessians, .. } = front;
+        dispatch.run(
+            #[inline(always)]
+            || {
+                let (step, target) = (T::ZERO, T::ZERO);
+                let rows = system.matrix.rows.particle;
+                preconditioner.apply(Sweep { layout, work, weight: mu, rows, step, target });
+                let Iterates { r, p, y, .. } = work;
+                let of_r = bound::products(layout, r, p, y);
+                // t = r − A z into b, its δ into p.
+                residual(system, Matrix { layout, hessians, inertia }, mu, [r, y], [b, p]);
+                gain(layout.places, of_r, bound::products(layout, b, p, y))
+            },
+        )
+    }
+}
+
+/// x += c with c = Σ(b − m̃x)/Σm̃: see [`crate::solver::pcg`].
+#[inline(always)]
+fn keep_momentum<T: Real>(layout: &Layout, inertia: &[T], b: &Planes<'_, T>, x: &mut Planes<'_, T>) {
+    let mut missing = [Sums::new(), Sums::new(), Sums::new()];
+    let mut mass = Sums::new();
+    for at in layout.tiles() {
+        let m = load(inertia, at);
+        let left = vec3::add_scaled(b.load(at), -m, x.load(at));
+        for (sum, left) in missing.iter_mut().zip(left) {
+            sum.add_lane(left.0);
+        }
+        mass.add_lane(m.0);
+    }
+    let mass = mass.sum();
+    if mass > T::ZERO {
+        let [a, b, c] = missing;
+        let (a, b, c) = (a.sum(), b.sum(), c.sum());
+        let c: Vec3<T> = vec3::scale(T::ONE / mass, [a, b, c]);
+        for at in layout.tiles() {
+            let m = load(inertia, at);
+            let [a, b, c] = c;
+            let moved = vec3::add(x.load(at), where_positive(m, [all(a), all(b), all(c)]));
+            x.store(at, moved);
+        }
+    }
+}
