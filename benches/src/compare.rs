@@ -81,11 +81,11 @@ impl Job for Compare<'_> {
         let of = steps.last().copied().unwrap_or(0);
         let step = |step| self.progress.set_message(format!("{name}: trajectory, step {step}/{of}"));
         scenario.record(&steps, None, step).map_err(|error| failed(error.to_string()))?;
-        let measured = measure::measure(&mut scenario, &self.request, self.progress).map_err(&failed)?;
+        let measured = measure::measure(&mut scenario, &self.request, self.progress).map_err(failed)?;
         let peak = memory::peak_resident();
         let product = Product { peak, ..operator::product(&mut scenario, self.levels) };
         let iterations = iteration::iterations(&mut scenario, self.request.methods, self.levels);
-        Ok((measured, product, iterations.map_err(failed)?))
+        Ok((measured, product, iterations))
     }
 }
 

@@ -56,7 +56,11 @@ pub(crate) fn solver<F: Force<f64> + Clone>(
         let width = BandedLdl::needs_of(&mut scenario.scene) / (9 * rows);
         affordable(std::iter::repeat_n(3 * width, 3 * rows))?;
     }
-    Ok(AnySolver::new(method, &mut scenario.scene, &scenario.model))
+    let solver = AnySolver::new(method, &mut scenario.scene, &scenario.model);
+    if method == Method::Wide && solver.bytes() == 0 {
+        return Err("no island has a layout in lanes, so it is block-Jacobi PCG".into());
+    }
+    Ok(solver)
 }
 
 /// Bytes of a scene with this solver: its state, islands, matrix and vectors, and the solver's own scratch.
@@ -91,6 +95,26 @@ mod tests {
         for method in [Method::Wide, Method::Multigrid, Method::Ldl] {
             assert!(bytes(method) > plain, "{method}");
         }
+    }
+
+    #[test]
+    fn lanes_that_are_not_used_are_no_method_of_their_own() {
+        // Farther apart in the numbering than there are runs for.
+        let mut model =
+            hooke_harness::scene::Model::at_rest("star", (0..40).map(|i| [f64::from(i); 3]).collect(), 0.1);
+        let stiffness = 10.0;
+        let spring = |end: usize| hooke_harness::scene::ModelSpring {
+            ends: [0, end],
+            stiffness,
+            rest_length: 1.0,
+            damping: 0.0,
+            cable: false,
+        };
+        model.springs = (1..40).map(spring).collect();
+        let euler = hooke::LinearlyImplicitEuler::<f64>::new(0.01).gravity([0.0; 3]);
+        let mut scenario = Scenario::new(&model, euler).unwrap();
+        assert!(solver(Method::Wide, &mut scenario).err().unwrap().contains("lanes"));
+        assert!(solver(Method::Jacobi, &mut scenario).is_ok());
     }
 
     #[test]
