@@ -125,7 +125,7 @@ impl Args {
 }
 
 /// The scene of that name as `hooke run` would take it, overrides applied.
-fn plan(scene: &str, flags: &[String], dt: Option<f64>) -> Result<Plan, InputError> {
+pub(crate) fn plan(scene: &str, flags: &[String], dt: Option<f64>) -> Result<Plan, InputError> {
     let mut arguments: Vec<String> = ["hooke", "run", scene].map(String::from).into();
     arguments.extend(flags.iter().cloned());
     if let Some(dt) = dt {
