@@ -1,4 +1,4 @@
-//! Time of the kernel's parts: the product A x, the assembly of a step, the preconditioner, a whole step.
+//! Time of the kernel's parts: the product A x, the assembly of a step, the preconditioners, a whole step with each solver.
 //!
 //! `cargo bench -p hooke-benches`. Times hold for one machine and one hour; compare ratios within one run.
 
@@ -6,8 +6,11 @@ use std::hint::black_box;
 use std::time::{Duration, Instant};
 
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
-use hooke::{Jacobi, Operator, Preconditioner};
+use hooke::{Jacobi, Multigrid, Operator, Preconditioner};
 use hooke_benches::{HostScene, moving};
+use hooke_harness::host::Host;
+use hooke_harness::run::solver::{AnySolver, METHODS};
+use hooke_harness::scene::catalog;
 
 const SCENES: [&str; 5] = ["cloth:32", "cloth:64", "chain:1000", "lattice:8x8x8", "curtain"];
 
@@ -16,8 +19,8 @@ fn springs(scene: &HostScene) -> Throughput {
 }
 
 /// y = A x: time per spring is the figure to watch.
-fn product(c: &mut Criterion) {
-    let mut group = c.benchmark_group("product");
+fn operator(c: &mut Criterion) {
+    let mut group = c.benchmark_group("operator");
     for name in SCENES {
         let (mut scene, mut euler) = moving(name);
         group.throughput(springs(&scene));
@@ -72,6 +75,26 @@ fn preconditioner(c: &mut Criterion) {
     }
 }
 
+/// Multigrid: what a step has to build (once a step) and one cycle, as an iteration of it applies.
+fn multigrid(c: &mut Criterion) {
+    let mut group = c.benchmark_group("multigrid_build_and_apply");
+    for name in SCENES {
+        let (mut scene, mut euler) = moving(name);
+        group.throughput(springs(&scene));
+        let (numbers, words) = Multigrid::needs(scene.positions().len(), scene.state().springs());
+        let mut multigrid = Multigrid::new(vec![0.0; numbers], vec![0; words], Host::new());
+        let parts = scene.parts();
+        euler
+            .inspect(parts, &[], |system, b, _| {
+                let mut z = vec![[0.0; 3]; b.len()];
+                group.bench_function(BenchmarkId::from_parameter(name), |bench| {
+                    bench.iter(|| black_box(multigrid.apply(system, black_box(b), &mut z)));
+                });
+            })
+            .expect("a valid step");
+    }
+}
+
 /// Puts a scene back where it was; its pins and springs, and what is known of them, stay.
 fn put_back(scene: &mut HostScene, [position, velocity]: &[Vec<[f64; 3]>; 2]) {
     for (i, (position, velocity)) in position.iter().zip(velocity).enumerate() {
@@ -82,28 +105,32 @@ fn put_back(scene: &mut HostScene, [position, velocity]: &[Vec<[f64; 3]>; 2]) {
     }
 }
 
-/// One step from the same state each time; putting it back is not timed.
+/// One step with each of the solvers, from the same state each time; putting it back is not timed.
 fn step(c: &mut Criterion) {
-    let mut group = c.benchmark_group("step");
-    group.sample_size(20);
-    for name in SCENES {
-        let (mut scene, mut euler) = moving(name);
-        let start = [scene.positions().to_vec(), scene.velocities().to_vec()];
-        group.throughput(springs(&scene));
-        group.bench_function(BenchmarkId::from_parameter(name), |bench| {
-            bench.iter_custom(|times| {
-                let mut spent = Duration::ZERO;
-                for _ in 0..times {
-                    put_back(&mut scene, &start);
-                    let began = Instant::now();
-                    black_box(scene.step(&mut euler).expect("a step"));
-                    spent += began.elapsed();
-                }
-                spent
+    for (solver, method) in METHODS {
+        let mut group = c.benchmark_group(format!("step_{solver}"));
+        group.sample_size(10).warm_up_time(Duration::from_secs(1)).measurement_time(Duration::from_secs(2));
+        for name in SCENES {
+            let (mut scene, euler) = moving(name);
+            let model = catalog::named(name).expect("a name of the catalogue").expect("a valid size");
+            let mut euler = euler.solver(AnySolver::new(method, &mut scene, &model));
+            let start = [scene.positions().to_vec(), scene.velocities().to_vec()];
+            group.throughput(springs(&scene));
+            group.bench_function(BenchmarkId::from_parameter(name), |bench| {
+                bench.iter_custom(|times| {
+                    let mut spent = Duration::ZERO;
+                    for _ in 0..times {
+                        put_back(&mut scene, &start);
+                        let began = Instant::now();
+                        black_box(scene.step(&mut euler).expect("a step"));
+                        spent += began.elapsed();
+                    }
+                    spent
+                });
             });
-        });
+        }
     }
 }
 
-criterion_group!(benches, product, assembly, preconditioner, step);
+criterion_group!(benches, operator, assembly, preconditioner, multigrid, step);
 criterion_main!(benches);

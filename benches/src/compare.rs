@@ -13,10 +13,11 @@ use indicatif::{ProgressBar, ProgressStyle};
 
 use crate::args::Args;
 use crate::bandwidth::{self, Level};
-use crate::measure::{self, Measured};
+use crate::iteration::{self, Iteration};
+use crate::measure::{self, Measured, Request};
 use crate::operator::{self, Product};
 use crate::scenario::{Euler, Scenario};
-use crate::{growth, memory, output, table};
+use crate::{growth, memory, methods, output, summary, table};
 
 /// How it can go wrong.
 pub(crate) enum Wrong {
@@ -63,40 +64,44 @@ pub(crate) fn progress() -> ProgressBar {
 
 /// Measures one scene.
 struct Compare<'a> {
-    args: &'a Args,
-    tolerances: &'a [f64],
+    states: usize,
+    request: Request<'a>,
     levels: &'a [Level; 4],
     progress: &'a ProgressBar,
 }
 
 impl Job for Compare<'_> {
-    type Output = (Measured, Product);
+    type Output = (Measured, Product, Vec<Iteration>);
 
     fn run<F: Force<f64> + Clone>(self, mut scenario: Scenario<F>) -> Result<Self::Output, Wrong> {
         let name = scenario.name.clone();
         let failed = |why: String| Wrong::Failed(format!("{name}: {why}"));
-        let steps = Scenario::<F>::steps(scenario.euler.dt(), self.args.states.unwrap_or(STATES))?;
+        memory::forget_peak();
+        let steps = Scenario::<F>::steps(scenario.euler.dt(), self.states)?;
         let of = steps.last().copied().unwrap_or(0);
         let step = |step| self.progress.set_message(format!("{name}: trajectory, step {step}/{of}"));
         scenario.record(&steps, None, step).map_err(|error| failed(error.to_string()))?;
-        let measured = measure::measure(&mut scenario, self.tolerances, self.progress).map_err(failed)?;
-        Ok((measured, operator::product(&mut scenario, self.levels)))
+        let measured = measure::measure(&mut scenario, &self.request, self.progress).map_err(failed)?;
+        let peak = memory::peak_resident();
+        let product = Product { peak, ..operator::product(&mut scenario, self.levels) };
+        let iterations = iteration::iterations(&mut scenario, self.request.methods, self.levels);
+        Ok((measured, product, iterations))
     }
 }
 
 const SCENES: [&str; 3] = ["cloth:32", "cloth:64", "chain:1000"];
 const STATES: usize = 6;
 const TOLERANCES: [f64; 3] = [1e-3, 1e-6, 1e-10];
+/// Whoever takes longer for a first solve is not asked for a second, s.
+const PATIENCE: f64 = 5.0;
 
 fn compare(args: &Args) -> Result<String, Wrong> {
-    let names: Vec<&str> =
-        if args.scenes.is_empty() { SCENES.into() } else { args.scenes.iter().map(String::as_str).collect() };
     let tolerances = if args.tolerance.is_empty() { &TOLERANCES } else { args.tolerance.as_slice() };
-    // Whatever is wrong with any of them is said before the first is measured.
-    let plans: Result<Vec<Plan>, InputError> = names.iter().map(|name| args.plan(name)).collect();
-    let plans = plans?;
+    let methods = methods::named(&args.method, &methods::all())?;
+    let states = args.states.unwrap_or(STATES);
+    let plans = args.plans(&SCENES)?;
     for plan in &plans {
-        Scenario::<()>::steps(plan.dt, args.states.unwrap_or(STATES))?;
+        Scenario::<()>::steps(plan.dt, states)?;
     }
     if let Some(file) = &args.json {
         safe::prepare_file(file)?;
@@ -104,14 +109,16 @@ fn compare(args: &Args) -> Result<String, Wrong> {
     let progress = progress();
     progress.set_message("memory bandwidth");
     let levels = bandwidth::levels();
-    memory::forget_peak();
-    let (mut rows, mut skipped, mut products) = (Vec::new(), Vec::new(), Vec::new());
+    let request = Request { methods: &methods, tolerances, patience: PATIENCE };
+    let (mut rows, mut skipped) = (Vec::new(), Vec::new());
+    let (mut products, mut iterations) = (Vec::new(), Vec::new());
     for plan in &plans {
-        let job = Compare { args, tolerances, levels: &levels, progress: &progress };
-        let (measured, product) = with_scene(plan, job)?;
+        let job = Compare { states, request, levels: &levels, progress: &progress };
+        let (measured, product, iteration) = with_scene(plan, job)?;
         rows.extend(measured.rows);
         skipped.extend(measured.skipped);
         products.push(product);
+        iterations.extend(iteration);
     }
     progress.finish_and_clear();
     if let Some(file) = &args.json {
@@ -122,9 +129,11 @@ fn compare(args: &Args) -> Result<String, Wrong> {
         text += &format!("{line}\n");
     }
     text += &format!("\n{}", table::products(&products, &levels));
-    if let Some(bytes) = memory::peak_resident() {
-        text +=
-            &format!("\npeak resident memory of all this, C++ peers left out: {} MB\n", bytes / 1_000_000);
+    text +=
+        "peak MB: resident memory while a scene was measured, all methods at once, C++ peers left out\n\n";
+    text += &table::iterations(&iterations);
+    for &tolerance in tolerances {
+        text += &format!("\n{}", table::summary(&summary::lines(&rows, tolerance), tolerance));
     }
     Ok(text)
 }

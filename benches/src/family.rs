@@ -31,7 +31,7 @@ pub(crate) fn families(points: &[Point]) -> Vec<Family> {
     let mut families: Vec<Family> = Vec::new();
     for point in points {
         let kind = point.scene.split(':').next().unwrap_or_default();
-        let label = format!("{kind}, {}, R = {:e}", point.method, point.tolerance);
+        let label = format!("{kind}, {}, {:.3} ms, R = {:e}", point.method, 1e3 * point.dt, point.tolerance);
         match families.iter_mut().find(|family| family.label == label) {
             Some(family) => family.points.push(point.clone()),
             None => families.push(Family { label, points: vec![point.clone()], time: None, memory: None }),
@@ -73,6 +73,6 @@ mod tests {
                 (family.time.unwrap() - 1.5).abs() < 1e-12 && (family.memory.unwrap() - 1.0).abs() < 1e-12
             );
         }
-        assert!(growth_plot::svg(&families).unwrap().contains("lattice, m, R = 1e-3"));
+        assert!(growth_plot::svg(&families).unwrap().contains("lattice, m, 16.667 ms, R = 1e-3"));
     }
 }

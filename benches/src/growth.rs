@@ -1,4 +1,4 @@
-//! How time and memory of a step grow with the number of particles: dt 1/60, medians over states at t = 0.25–0.5 s of a
+//! How time and memory of a step grow with the number of particles: dt 1/60 unless said, medians over states at t = 0.25–0.5 s of a
 //! trajectory solved to R = 1e-3 (a finer one would take hours on the largest scenes), and the exponent of a power law
 //! through each family of scenes. (One state would not do: at t = 0.25 s a cloth of 512×512 has hardly begun to move, and
 //! its solve takes a third of the iterations of one of 256×256.)
@@ -7,9 +7,9 @@ use std::path::Path;
 use std::time::Instant;
 
 use hooke::Force;
-use hooke_harness::error::InputError;
 use hooke_harness::output::safe;
 use hooke_harness::run::plan::Plan;
+use hooke_harness::run::solver::Method;
 use indicatif::ProgressBar;
 
 use crate::args::Args;
@@ -17,9 +17,8 @@ use crate::compare::{Job, Wrong, progress, with_scene};
 use crate::contender::Contender;
 use crate::family::{Family, Point, families};
 use crate::median::median;
-use crate::methods::methods;
 use crate::scenario::Scenario;
-use crate::{growth_plot, memory, output, table};
+use crate::{growth_plot, memory, methods, output, table};
 
 const SCENES: [&str; 10] = [
     "cloth:32",
@@ -35,31 +34,39 @@ const SCENES: [&str; 10] = [
 ];
 /// The tolerance unless one is given, and that of every trajectory.
 const TOLERANCE: f64 = 1e-3;
+/// The methods unless some are named.
+const METHODS: [Method; 2] = [Method::Jacobi, Method::Multigrid];
 const STATES: usize = 3;
 const STEP: f64 = 1.0 / 60.0;
 
 struct Grow<'a> {
     states: usize,
+    methods: &'a [Method],
     tolerances: &'a [f64],
     progress: &'a ProgressBar,
 }
 
 impl Job for Grow<'_> {
-    type Output = Vec<Point>;
+    type Output = (Vec<Point>, Vec<String>);
 
-    fn run<F: Force<f64> + Clone>(self, mut scenario: Scenario<F>) -> Result<Vec<Point>, Wrong> {
+    fn run<F: Force<f64> + Clone>(self, mut scenario: Scenario<F>) -> Result<Self::Output, Wrong> {
         let name = scenario.name.clone();
         let failed = |why: String| Wrong::Failed(format!("{name}: {why}"));
         let steps = Scenario::<F>::steps(scenario.euler.dt(), self.states)?;
         let of = steps.last().copied().unwrap_or(0);
         let step = |step| self.progress.set_message(format!("{name}: trajectory, step {step}/{of}"));
         scenario.record(&steps, Some(TOLERANCE), step).map_err(|error| failed(error.to_string()))?;
-        let euler = scenario.euler.clone();
-        let mut points = Vec::new();
-        for method in methods::<F>() {
+        let (mut points, mut skipped) = (Vec::new(), Vec::new());
+        for &method in self.methods {
             for &tolerance in self.tolerances {
-                self.progress.set_message(format!("{name}: {} at {tolerance:e}", method.name));
-                let mut contender = Contender::hooke(&method, &euler, tolerance, &scenario);
+                self.progress.set_message(format!("{name}: {} at {tolerance:e}", methods::name(method)));
+                let mut contender = match Contender::hooke(method, tolerance, &mut scenario) {
+                    Ok(contender) => contender,
+                    Err(why) => {
+                        skipped.push(format!("{name}: {} skipped: {why}\n", methods::name(method)));
+                        break;
+                    }
+                };
                 let (mut ms, mut iterations) = (Vec::new(), Vec::new());
                 for k in 0..scenario.states() {
                     let mut times = Vec::new();
@@ -78,7 +85,7 @@ impl Job for Grow<'_> {
                     scene: name.clone(),
                     dt: scenario.euler.dt(),
                     tolerance,
-                    method: method.name.into(),
+                    method: contender.name.into(),
                     particles: scenario.scene.positions().len(),
                     springs: scenario.scene.state().springs(),
                     ms: median(ms),
@@ -87,20 +94,20 @@ impl Job for Grow<'_> {
                 });
             }
         }
-        Ok(points)
+        Ok((points, skipped))
     }
 }
 
 /// Measures, prints, plots.
 pub(crate) fn growth(args: &Args, svg: &Path) -> Result<String, Wrong> {
-    let names: Vec<&str> =
-        if args.scenes.is_empty() { SCENES.into() } else { args.scenes.iter().map(String::as_str).collect() };
+    let methods = methods::named(&args.method, &METHODS)?;
     let tolerances = if args.tolerance.is_empty() { &[TOLERANCE] } else { args.tolerance.as_slice() };
     let states = args.states.unwrap_or(STATES);
-    let plans: Result<Vec<Plan>, InputError> = names.iter().map(|name| args.plan(name)).collect();
-    let mut plans = plans?;
+    let mut plans: Vec<Plan> = args.plans(&SCENES)?;
     for plan in &mut plans {
-        plan.dt = args.dt.unwrap_or(STEP);
+        if args.dt.is_empty() {
+            plan.dt = STEP;
+        }
         Scenario::<()>::steps(plan.dt, states)?;
     }
     if let Some(file) = &args.json {
@@ -111,9 +118,12 @@ pub(crate) fn growth(args: &Args, svg: &Path) -> Result<String, Wrong> {
     }
     safe::prepare_file(svg)?;
     let progress = progress();
-    let mut points = Vec::new();
+    let (mut points, mut skipped) = (Vec::new(), Vec::new());
     for plan in &plans {
-        points.extend(with_scene(plan, Grow { states, tolerances, progress: &progress })?);
+        let job = Grow { states, methods: &methods, tolerances, progress: &progress };
+        let (more, without) = with_scene(plan, job)?;
+        points.extend(more);
+        skipped.extend(without);
     }
     progress.finish_and_clear();
     let families = families(&points);
@@ -123,14 +133,16 @@ pub(crate) fn growth(args: &Args, svg: &Path) -> Result<String, Wrong> {
     if let Some(file) = &args.json {
         output::json(file, &points).map_err(Wrong::Failed)?;
     }
-    Ok(text(&points, &families) + &format!("plot: {}\n", svg.display()))
+    let said = text(&points, &families) + &skipped.concat();
+    Ok(said + &format!("plot: {}\n", svg.display()))
 }
 
 fn text(points: &[Point], families: &[Family]) -> String {
-    let header = ["scene", "R", "method", "particles", "springs", "ms", "iter", "MB"];
+    let header = ["scene", "dt", "R", "method", "particles", "springs", "ms", "iter", "MB"];
     let lines = points.iter().map(|p| {
         vec![
             p.scene.clone(),
+            format!("{:.4}", p.dt),
             format!("{:e}", p.tolerance),
             p.method.clone(),
             p.particles.to_string(),
@@ -142,7 +154,7 @@ fn text(points: &[Point], families: &[Family]) -> String {
     });
     let power = |p: Option<f64>| p.map_or("-".into(), |p| format!("n^{p:.2}"));
     let fits = families.iter().map(|f| vec![f.label.clone(), power(f.time), power(f.memory)]);
-    let mut text = table::table(&header, 3, lines);
+    let mut text = table::table(&header, 4, lines);
     text += &format!("\n{}", table::table(&["family", "time", "memory"], 1, fits));
     if let Some(bytes) = memory::peak_resident() {
         text += &format!("\npeak resident memory of all this: {} MB\n", bytes / 1_000_000);

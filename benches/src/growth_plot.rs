@@ -39,6 +39,13 @@ fn range(values: impl Iterator<Item = f64>) -> Range<f64> {
     if low <= high { low / 1.5..high * 1.5 } else { 0.1..1.0 }
 }
 
+/// The same with room above for a legend of so many lines: about 16 of a panel's 430 pixels each.
+fn under_a_legend(range: Range<f64>, lines: usize) -> Range<f64> {
+    let share = (0.04 * (lines + 1) as f64).min(0.7);
+    let span = (range.end / range.start).powf(1.0 / (1.0 - share));
+    range.start..range.start * span
+}
+
 fn panel(
     area: &DrawingArea<SVGBackend<'_>, Shift>,
     what: &str,
@@ -48,7 +55,7 @@ fn panel(
 ) -> Result<(), Box<dyn Error>> {
     let points = || families.iter().flat_map(|family| &family.points);
     let x = range(points().map(|p| p.particles as f64));
-    let y = range(points().map(value));
+    let y = under_a_legend(range(points().map(value)), families.len());
     let mut chart = ChartBuilder::on(area)
         .margin(12)
         .x_label_area_size(44)
@@ -68,7 +75,7 @@ fn panel(
         let law = power(family).map_or(String::new(), |p| format!(": n^{p:.2}"));
         chart
             .draw_series(LineSeries::new(at(), colour.stroke_width(2)))?
-            .label(format!("{}{law}", family.label))
+            .label(format!("{}{law}", family.label.replace("hooke ", "")))
             .legend(move |(x, y)| PathElement::new([(x, y), (x + 18, y)], colour.stroke_width(2)));
         chart.draw_series(at().map(|point| Circle::new(point, 3, colour.filled())))?;
     }
@@ -78,4 +85,16 @@ fn panel(
         .background_style(WHITE.mix(0.8))
         .draw()?;
     Ok(())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn curves_end_below_the_legend() {
+        let range = under_a_legend(1.0..100.0, 4);
+        let top = 100f64.ln() / range.end.ln();
+        assert!((top - 0.8).abs() < 1e-12 && range.start == 1.0, "{top}");
+    }
 }

@@ -19,6 +19,7 @@ mod peers;
 
 // ... what the machine can do, ...
 mod bandwidth;
+mod iteration;
 mod memory;
 mod operator;
 
@@ -32,6 +33,7 @@ mod growth_plot;
 mod measure;
 mod output;
 mod row;
+mod summary;
 mod table;
 
 pub use compare::main as compare;

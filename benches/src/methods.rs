@@ -1,162 +1,126 @@
-//! Hooke's own solvers, a line each. To add one, give it a name, say how the integrator is told to use it, and how many
-//! bytes a scene needs with it.
+//! Hooke's own solvers, as `hooke run --solver` names them, with the memory that each needs. A solver that the harness
+//! knows is here as soon as it has a line in [`name`].
 
-use std::time::Duration;
+use hooke::{BandedLdl, Force, SceneIn};
+use hooke_harness::error::InputError;
+use hooke_harness::nearest;
+use hooke_harness::run::solver::{AnySolver, METHODS, Method};
 
-use cpu_time::ThreadTime;
-use hooke::{BandedLdl, Force, Integrator, Multigrid, SceneIn, SparseLdl, StepError, WideJacobi};
-use hooke_harness::host::Host;
-use hooke_harness::run::solver::minimum_degree;
+use crate::peers::affordable;
+use crate::scenario::{HostScene, Scenario};
 
-use crate::scenario::{Euler, HostScene};
-
-/// One timed step.
-pub(crate) struct Stepped {
-    pub(crate) time: Duration,
-    pub(crate) iterations: u32,
-    /// The bounds that the kernel reports, J.
-    pub(crate) upper: f64,
-    pub(crate) lower: f64,
-    /// Some island used up its iterations or stalled above the floor.
-    pub(crate) unfinished: bool,
-}
-
-/// Something that steps a scene and times itself. What it learns of pins and springs it may keep from step to step.
-pub(crate) trait Step {
-    fn step(&mut self, scene: &mut HostScene) -> Result<Stepped, StepError>;
-}
-
-/// One of Hooke's solvers.
-pub(crate) struct Method<F> {
-    pub(crate) name: &'static str,
-    /// From the scene's integrator and a relative tolerance R.
-    pub(crate) make: for<'e> fn(&'e Euler<F>, f64) -> Box<dyn Step + 'e>,
-    /// Bytes of a scene with this solver: its state, islands, matrix and vectors.
-    pub(crate) workspace: fn(&HostScene) -> usize,
-}
-
-/// All of them.
-pub(crate) fn methods<F: Force<f64> + Clone>() -> Vec<Method<F>> {
-    vec![
-        Method {
-            name: "hooke block-Jacobi PCG",
-            make: |euler, r| Box::new(Timed(euler.clone().tolerance(r).max_iterations(MOST_ITERATIONS))),
-            workspace: scene_bytes,
-        },
-        Method {
-            name: "hooke wide PCG",
-            make: |euler, r| {
-                growing(move |numbers, words| {
-                    let solver = WideJacobi::new(vec![0.0; numbers], vec![0; words], Host::new());
-                    Box::new(Timed(euler.clone().tolerance(r).max_iterations(MOST_ITERATIONS).solver(solver)))
-                })
-            },
-            workspace: scene_bytes,
-        },
-        Method {
-            name: "hooke multigrid PCG",
-            make: |euler, r| {
-                growing(move |numbers, words| {
-                    let solver = Multigrid::new(vec![0.0; numbers], vec![0; words], Host::new());
-                    Box::new(Timed(euler.clone().tolerance(r).max_iterations(MOST_ITERATIONS).solver(solver)))
-                })
-            },
-            workspace: multigrid_bytes,
-        },
-        Method {
-            name: "hooke banded LDL",
-            make: |euler, r| {
-                growing(move |numbers, _| {
-                    let solver = BandedLdl::new(vec![0.0; numbers]);
-                    Box::new(Timed(euler.clone().tolerance(r).solver(solver)))
-                })
-            },
-            workspace: scene_bytes,
-        },
-        Method {
-            name: "hooke sparse LDL",
-            make: |euler, r| Box::new(Ordered { euler, r, solver: None }),
-            workspace: scene_bytes,
-        },
-    ]
-}
-
-/// So many that none of the scenes here is cut short by it.
-const MOST_ITERATIONS: u32 = 100_000;
-
-/// Bytes of a scene's own lists, which hold all that PCG needs.
-fn scene_bytes(scene: &HostScene) -> usize {
-    let (reals, words) = SceneIn::<f64>::needs(scene.positions().len(), scene.state().springs());
-    reals * size_of::<f64>() + words * size_of::<u32>()
-}
-
-/// The same with multigrid's own.
-fn multigrid_bytes(scene: &HostScene) -> usize {
-    let (numbers, words) = Multigrid::needs(scene.positions().len(), scene.state().springs());
-    scene_bytes(scene) + numbers * size_of::<f32>() + words * size_of::<u32>()
-}
-
-/// Any integrator of the kernel.
-struct Timed<I>(I);
-
-impl<I: Integrator<f64>> Step for Timed<I> {
-    fn step(&mut self, scene: &mut HostScene) -> Result<Stepped, StepError> {
-        let began = ThreadTime::now();
-        let report = scene.step(&mut self.0)?;
-        let time = began.elapsed();
-        let unfinished = report.capped + report.stalled > 0;
-        let (iterations, upper, lower) = (report.iterations, report.upper, report.lower);
-        Ok(Stepped { time, iterations, upper, lower, unfinished })
+/// What a line of the tables calls it.
+pub(crate) fn name(method: Method) -> &'static str {
+    match method {
+        Method::Jacobi => "hooke block-Jacobi PCG",
+        Method::Wide => "hooke wide PCG",
+        Method::Multigrid => "hooke multigrid PCG",
+        Method::Banded => "hooke banded LDL",
+        Method::Ldl => "hooke sparse LDL",
     }
 }
 
-/// A solver with a workspace of so many numbers and words.
-type Make<'e> = Box<dyn Fn(usize, usize) -> Box<dyn Step + 'e> + 'e>;
-
-/// A direct solver that is made anew, untimed, whenever a step says how much workspace it lacks.
-struct Growing<'e> {
-    make: Make<'e>,
-    solver: Box<dyn Step + 'e>,
+/// Does it stop at a tolerance?
+pub(crate) fn iterates(method: Method) -> bool {
+    !matches!(method, Method::Banded | Method::Ldl)
 }
 
-fn growing<'e>(make: impl Fn(usize, usize) -> Box<dyn Step + 'e> + 'e) -> Box<dyn Step + 'e> {
-    let solver = make(0, 0);
-    Box::new(Growing { make: Box::new(make), solver })
+/// The methods of these names; `usual` if there are none.
+pub(crate) fn named(names: &[String], usual: &[Method]) -> Result<Vec<Method>, InputError> {
+    if names.is_empty() {
+        return Ok(usual.into());
+    }
+    let known = METHODS.map(|(name, _)| name);
+    let find = |name: &String| {
+        METHODS.iter().find(|(known, _)| known == name).map(|(_, method)| *method).ok_or_else(|| {
+            let near = nearest::suggestion(name, &known);
+            InputError::new(format!("--method '{name}' is none of {}{near}", known.join(" ")))
+        })
+    };
+    names.iter().map(find).collect()
 }
 
-impl Step for Growing<'_> {
-    fn step(&mut self, scene: &mut HostScene) -> Result<Stepped, StepError> {
-        loop {
-            match self.solver.step(scene) {
-                Err(StepError::Workspace { numbers, words }) => self.solver = (self.make)(numbers, words),
-                other => return other,
-            }
+/// All of them, in the order of the tables.
+pub(crate) fn all() -> Vec<Method> {
+    METHODS.iter().map(|(_, method)| *method).collect()
+}
+
+/// The solver with the memory that this scene needs; or why it is skipped.
+pub(crate) fn solver<F: Force<f64> + Clone>(
+    method: Method,
+    scenario: &mut Scenario<F>,
+) -> Result<AnySolver<f64>, String> {
+    if method == Method::Banded {
+        // 9 numbers per row and row of bandwidth. The same rule as for a peer.
+        let rows = scenario.particle.len().max(1);
+        let width = BandedLdl::needs_of(&mut scenario.scene) / (9 * rows);
+        affordable(std::iter::repeat_n(3 * width, 3 * rows))?;
+    }
+    let solver = AnySolver::new(method, &mut scenario.scene, &scenario.model);
+    if method == Method::Wide && solver.bytes() == 0 {
+        return Err("no island has a layout in lanes, so it is block-Jacobi PCG".into());
+    }
+    Ok(solver)
+}
+
+/// Bytes of a scene with this solver: its state, islands, matrix and vectors, and the solver's own scratch.
+pub(crate) fn bytes(scene: &HostScene, solver: &AnySolver<f64>) -> usize {
+    let (reals, words) = SceneIn::<f64>::needs(scene.positions().len(), scene.state().springs());
+    reals * size_of::<f64>() + words * size_of::<u32>() + solver.bytes()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::testing;
+
+    #[test]
+    fn a_name_is_that_of_hooke_run_and_a_wrong_one_is_named() {
+        let names = |words: &[&str]| named(&words.iter().map(|w| w.to_string()).collect::<Vec<_>>(), &[]);
+        assert_eq!(names(&["wide", "ldl"]).unwrap(), [Method::Wide, Method::Ldl]);
+        assert!(names(&["mutigrid"]).unwrap_err().message.contains("did you mean 'multigrid'?"));
+    }
+
+    #[test]
+    fn what_a_solver_needs_beside_the_scene_is_counted() {
+        let mut scenario = testing::moving("cloth:8");
+        let mut bytes = |method| {
+            let solver = solver(method, &mut scenario).unwrap();
+            bytes(&scenario.scene, &solver)
+        };
+        let plain = bytes(Method::Jacobi);
+        // A row is tied to the one below and its neighbour: 9 numbers for each of 9 rows of bandwidth.
+        let rows = 8 * 8 - 2;
+        assert_eq!(bytes(Method::Banded) - plain, 8 * 9 * 9 * rows);
+        for method in [Method::Wide, Method::Multigrid, Method::Ldl] {
+            assert!(bytes(method) > plain, "{method}");
         }
     }
-}
 
-/// The sparse solver in an approximate minimum degree order, which it asks the first scene for, untimed.
-struct Ordered<'e, F> {
-    euler: &'e Euler<F>,
-    r: f64,
-    solver: Option<Box<dyn Step + 'e>>,
-}
+    #[test]
+    fn lanes_that_are_not_used_are_no_method_of_their_own() {
+        // Farther apart in the numbering than there are runs for.
+        let mut model =
+            hooke_harness::scene::Model::at_rest("star", (0..40).map(|i| [f64::from(i); 3]).collect(), 0.1);
+        let stiffness = 10.0;
+        let spring = |end: usize| hooke_harness::scene::ModelSpring {
+            ends: [0, end],
+            stiffness,
+            rest_length: 1.0,
+            damping: 0.0,
+            cable: false,
+        };
+        model.springs = (1..40).map(spring).collect();
+        let euler = hooke::LinearlyImplicitEuler::<f64>::new(0.01).gravity([0.0; 3]);
+        let mut scenario = Scenario::new(&model, euler).unwrap();
+        assert!(solver(Method::Wide, &mut scenario).err().unwrap().contains("lanes"));
+        assert!(solver(Method::Jacobi, &mut scenario).is_ok());
+    }
 
-impl<F: Force<f64> + Clone> Step for Ordered<'_, F> {
-    fn step(&mut self, scene: &mut HostScene) -> Result<Stepped, StepError> {
-        let (euler, r) = (self.euler, self.r);
-        let solver = self.solver.get_or_insert_with(|| {
-            let state = scene.state();
-            let pinned: Vec<bool> = (0..scene.positions().len()).map(|i| scene.is_pinned(i)).collect();
-            let order = minimum_degree(
-                &pinned,
-                (0..state.springs()).filter_map(|j| state.ends(j).map(|(a, b)| [a, b])),
-            );
-            growing(move |numbers, words| {
-                let solver = SparseLdl::new(order.clone(), vec![0.0; numbers], vec![0; words]);
-                Box::new(Timed(euler.clone().tolerance(r).solver(solver)))
-            })
-        });
-        solver.step(scene)
+    #[test]
+    fn a_band_that_would_take_minutes_is_refused_before_its_memory_is_asked_for() {
+        let mut scenario = testing::resting("cloth:256");
+        let why = solver(Method::Banded, &mut scenario).err().unwrap();
+        assert!(why.contains("multiplications"), "{why}");
     }
 }

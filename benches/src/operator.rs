@@ -7,14 +7,15 @@ use crate::bandwidth::{self, Level};
 use crate::median::median;
 use crate::scenario::Scenario;
 
-/// α, w and two indices.
-const PER_SPRING: usize = 4 * 8 + 2 * 4;
-/// The inertia, x and y read, y written.
-const PER_PARTICLE: usize = 8 + 3 * 24;
+/// α, w and the index of the other end.
+const PER_SPRING: usize = 4 * 8 + 4;
+/// The inertia and a count of springs, x and y read, y written.
+const PER_PARTICLE: usize = 8 + 4 + 3 * 24;
 
 /// The product on one scene.
 pub(crate) struct Product {
     pub(crate) scene: String,
+    pub(crate) dt: f64,
     pub(crate) springs: usize,
     pub(crate) bytes: usize,
     pub(crate) level: Level,
@@ -24,6 +25,8 @@ pub(crate) struct Product {
     pub(crate) allowed: f64,
     /// ns per spring of a step's assembly: forces, Hessians, certificate, right side
     pub(crate) assembly: f64,
+    /// Bytes that were resident at once while the scene was measured
+    pub(crate) peak: Option<usize>,
 }
 
 /// Times the products of all islands, and the assembly, at state 0.
@@ -54,11 +57,13 @@ pub(crate) fn product<F: Force<f64> + Clone>(scenario: &mut Scenario<F>, levels:
     let per_spring = |x: f64| x / springs.max(1) as f64;
     Product {
         scene: scenario.name.clone(),
+        dt: scenario.euler.dt(),
         springs,
         bytes,
         level,
         time: per_spring(nanoseconds),
         allowed: per_spring(bytes as f64 / level.read),
         assembly: per_spring(assembly),
+        peak: None,
     }
 }

@@ -24,6 +24,7 @@ pub(crate) struct Row {
     pub(crate) ms: f64,
     pub(crate) ms_worst: f64,
     pub(crate) iterations: f64,
+    pub(crate) iterations_worst: f64,
     #[serde(rename = "bound_J")]
     pub(crate) bound: f64,
     #[serde(rename = "bound_J_worst")]
@@ -40,6 +41,8 @@ pub(crate) struct Row {
     #[serde(rename = "workspace_bytes")]
     pub(crate) bytes: usize,
     pub(crate) states: usize,
+    /// Too slow for more than its first answer, at state 0.
+    pub(crate) once: bool,
     /// States whose solve used up its iterations or stalled.
     pub(crate) unfinished: usize,
     pub(crate) best_peer: Option<String>,
@@ -87,6 +90,7 @@ pub(crate) mod tests {
             ms,
             ms_worst: ms,
             iterations: 0.0,
+            iterations_worst: 0.0,
             bound: 0.0,
             bound_worst: 0.0,
             reported_upper: None,
@@ -95,6 +99,7 @@ pub(crate) mod tests {
             error_worst: error,
             bytes: 0,
             states: 1,
+            once: false,
             unfinished: 0,
             best_peer: None,
             ratio: None,

@@ -6,6 +6,7 @@
 use hooke::{Force, LinearlyImplicitEuler, MassSpring, StepError, System, Vec3};
 use hooke_harness::error::InputError;
 use hooke_harness::heap::Heap;
+use hooke_harness::run::solver::{AnySolver, Method};
 use hooke_harness::scene::Model;
 
 /// A scene on the heap.
@@ -15,6 +16,8 @@ pub(crate) type Euler<F> = LinearlyImplicitEuler<f64, F>;
 
 /// Where on the trajectory states are taken, s.
 pub(crate) const WINDOW: [f64; 2] = [0.25, 0.5];
+/// So many that none of the scenes here is cut short by it.
+pub(crate) const MOST_ITERATIONS: u32 = 100_000;
 /// The relative tolerance of the trajectory.
 const TIGHT: f64 = 1e-10;
 
@@ -27,6 +30,7 @@ struct State {
 /// A scene, its integrator and its states.
 pub(crate) struct Scenario<F> {
     pub(crate) name: String,
+    pub(crate) model: Model,
     pub(crate) scene: HostScene,
     pub(crate) euler: Euler<F>,
     /// The particle of each unknown block row; the islands' rows follow one another.
@@ -38,8 +42,8 @@ impl<F: Force<f64> + Clone> Scenario<F> {
     /// The scene at t = 0, without states.
     pub(crate) fn new(model: &Model, euler: Euler<F>) -> Result<Self, InputError> {
         let scene = model.build::<f64>()?;
-        let (name, particle, states) = (model.name.clone(), Vec::new(), Vec::new());
-        let mut scenario = Self { name, scene, euler, particle, states };
+        let (name, model) = (model.name.clone(), model.clone());
+        let mut scenario = Self { name, model, scene, euler, particle: Vec::new(), states: Vec::new() };
         let mut particle = Vec::new();
         let visited = scenario.systems(|system, _, _, _| {
             particle.extend((0..system.particles()).filter_map(|row| system.particle(row)));
@@ -63,14 +67,17 @@ impl<F: Force<f64> + Clone> Scenario<F> {
         Ok((0..count).map(|k| (first + k as f64 * gap).floor() as usize).collect())
     }
 
-    /// Goes along the trajectory to the last of `steps` and keeps the states at them.
+    /// Goes along the trajectory to the last of `steps` and keeps the states at them. (Multigrid is the method that no scene
+    /// makes very slow; the tolerance is what the states depend on.)
     pub(crate) fn record(
         &mut self,
         steps: &[usize],
         tolerance: Option<f64>,
         mut progress: impl FnMut(usize),
     ) -> Result<(), StepError> {
-        let mut euler = self.euler.clone().tolerance(tolerance.unwrap_or(TIGHT)).max_iterations(100_000);
+        let solver = AnySolver::new(Method::Multigrid, &mut self.scene, &self.model);
+        let euler = self.euler.clone().tolerance(tolerance.unwrap_or(TIGHT));
+        let mut euler = euler.max_iterations(MOST_ITERATIONS).solver(solver);
         for step in 1..=steps.last().copied().unwrap_or(0) {
             self.scene.step(&mut euler)?;
             progress(step);

@@ -7,12 +7,23 @@ use crate::scenario::Scenario;
 
 pub(crate) type Forces = ((), Gravity<f64>);
 
-/// A scene of the catalogue in one state of the window.
-pub(crate) fn moving(name: &str) -> Scenario<Forces> {
+/// A scene of the catalogue as it is at the start, without states.
+pub(crate) fn resting(name: &str) -> Scenario<Forces> {
     let model = catalog::named(name).unwrap().unwrap();
     let euler = LinearlyImplicitEuler::new(model.dt).gravity(model.gravity);
-    let mut scenario = Scenario::new(&model, euler).unwrap();
-    scenario.record(&Scenario::<Forces>::steps(model.dt, 1).unwrap(), None, |_| {}).unwrap();
+    Scenario::new(&model, euler).unwrap()
+}
+
+/// The same in so many states of the window.
+pub(crate) fn in_states(name: &str, states: usize) -> Scenario<Forces> {
+    let mut scenario = resting(name);
+    let steps = Scenario::<Forces>::steps(scenario.model.dt, states).unwrap();
+    scenario.record(&steps, None, |_| {}).unwrap();
     scenario.put(0);
     scenario
+}
+
+/// The same in one state.
+pub(crate) fn moving(name: &str) -> Scenario<Forces> {
+    in_states(name, 1)
 }

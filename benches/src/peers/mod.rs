@@ -57,7 +57,7 @@ pub(crate) const PEERS: [Entry; 6] = [
 const MOST_WORK: f64 = 5e10;
 
 /// Refuses a factor whose columns have these lengths if it is too much work.
-fn affordable(lengths: impl Iterator<Item = usize>) -> Result<(), String> {
+pub(crate) fn affordable(lengths: impl Iterator<Item = usize>) -> Result<(), String> {
     let work: f64 = lengths.map(|n| (n * n) as f64).sum();
     if work <= MOST_WORK {
         Ok(())
