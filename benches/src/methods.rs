@@ -4,7 +4,9 @@
 use std::time::Duration;
 
 use cpu_time::ThreadTime;
-use hooke::{BandedLdl, Force, Integrator, Multigrid, SceneIn, SparseLdl, StepError, WideJacobi};
+use hooke::{
+    BandedLdl, BlockIlu, Force, Integrator, Multigrid, SceneIn, SparseLdl, Ssor, StepError, WideJacobi,
+};
 use hooke_harness::host::Host;
 use hooke_harness::run::solver::minimum_degree;
 
@@ -62,6 +64,26 @@ pub(crate) fn methods<F: Force<f64> + Clone>() -> Vec<Method<F>> {
                 })
             },
             workspace: multigrid_bytes,
+        },
+        Method {
+            name: "hooke block SSOR PCG",
+            make: |euler, r| {
+                growing(move |numbers, _| {
+                    let solver = Ssor::new(vec![0.0; numbers]);
+                    Box::new(Timed(euler.clone().tolerance(r).max_iterations(MOST_ITERATIONS).solver(solver)))
+                })
+            },
+            workspace: scene_bytes,
+        },
+        Method {
+            name: "hooke block D-ILU PCG",
+            make: |euler, r| {
+                growing(move |numbers, _| {
+                    let solver = BlockIlu::new(vec![0.0; numbers]);
+                    Box::new(Timed(euler.clone().tolerance(r).max_iterations(MOST_ITERATIONS).solver(solver)))
+                })
+            },
+            workspace: scene_bytes,
         },
         Method {
             name: "hooke banded LDL",
