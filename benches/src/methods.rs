@@ -66,24 +66,24 @@ pub(crate) fn methods<F: Force<f64> + Clone>() -> Vec<Method<F>> {
             workspace: multigrid_bytes,
         },
         Method {
-            name: "hooke block SSOR PCG",
+            name: "hooke SSOR PCG",
             make: |euler, r| {
                 growing(move |numbers, _| {
                     let solver = Ssor::new(vec![0.0; numbers]);
                     Box::new(Timed(euler.clone().tolerance(r).max_iterations(MOST_ITERATIONS).solver(solver)))
                 })
             },
-            workspace: scene_bytes,
+            workspace: ssor_bytes,
         },
         Method {
-            name: "hooke block D-ILU PCG",
+            name: "hooke D-ILU PCG",
             make: |euler, r| {
                 growing(move |numbers, _| {
                     let solver = BlockIlu::new(vec![0.0; numbers]);
                     Box::new(Timed(euler.clone().tolerance(r).max_iterations(MOST_ITERATIONS).solver(solver)))
                 })
             },
-            workspace: scene_bytes,
+            workspace: ilu_bytes,
         },
         Method {
             name: "hooke banded LDL",
@@ -110,6 +110,16 @@ const MOST_ITERATIONS: u32 = 100_000;
 fn scene_bytes(scene: &HostScene) -> usize {
     let (reals, words) = SceneIn::<f64>::needs(scene.positions().len(), scene.state().springs());
     reals * size_of::<f64>() + words * size_of::<u32>()
+}
+
+/// The same with SSOR's own.
+fn ssor_bytes(scene: &HostScene) -> usize {
+    scene_bytes(scene) + Ssor::needs(scene.positions().len()) * size_of::<f64>()
+}
+
+/// The same with D-ILU's own.
+fn ilu_bytes(scene: &HostScene) -> usize {
+    scene_bytes(scene) + BlockIlu::needs(scene.positions().len()) * size_of::<f64>()
 }
 
 /// The same with multigrid's own.

@@ -52,9 +52,8 @@ pub use real::Real;
 pub use report::{Ending, IslandReport, Report, Solve};
 pub use scene::{Growable, MassSpring, Scene, SceneIn};
 pub use snapshot::Snapshot;
-pub use solver::{
-    BandedLdl, BlockIlu, BlockJacobi, Jacobi, Multigrid, Preconditioner, Solver, SparseLdl, Ssor, Stop,
-};
+pub use solver::{BandedLdl, BlockJacobi, Jacobi, Multigrid, Preconditioner, Solver, SparseLdl, Stop};
+pub use solver::{BlockIlu, Ssor};
 pub use spring::{Spring, Stretched};
 pub use sym3::Sym3;
 pub use system::{Operator, System};

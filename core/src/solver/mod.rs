@@ -15,6 +15,7 @@ mod pivot;
 mod sparse_ldl;
 mod ssor;
 mod supernodes;
+mod triangle;
 
 pub use banded_ldl::BandedLdl;
 pub use block_ilu::BlockIlu;

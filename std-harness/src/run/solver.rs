@@ -3,8 +3,8 @@
 use std::fmt;
 
 use hooke::{
-    BandedLdl, BlockJacobi, Force, MassSpring, Memory, Multigrid, Real, Solve, Solver, SparseLdl, StepError,
-    Stop, WideJacobi,
+    BandedLdl, BlockIlu, BlockJacobi, Force, MassSpring, Memory, Multigrid, Real, Solve, Solver, SparseLdl,
+    Ssor, StepError, Stop, WideJacobi,
 };
 
 use crate::host::Host;
@@ -15,6 +15,10 @@ use crate::scene::Model;
 pub enum Method {
     /// Block-Jacobi PCG.
     Jacobi,
+    /// Block-SSOR PCG.
+    Ssor,
+    /// Block-D-ILU PCG.
+    Ilu,
     /// Block-Jacobi PCG in lanes, on scenes whose springs join particles at few distances.
     Wide,
     /// PCG around one aggregation-multigrid cycle in f32.
@@ -26,8 +30,10 @@ pub enum Method {
 }
 
 /// What `--solver` calls them.
-pub const METHODS: [(&str, Method); 5] = [
+pub const METHODS: [(&str, Method); 7] = [
     ("jacobi", Method::Jacobi),
+    ("ssor", Method::Ssor),
+    ("ilu", Method::Ilu),
     ("wide", Method::Wide),
     ("multigrid", Method::Multigrid),
     ("banded", Method::Banded),
@@ -38,6 +44,8 @@ impl fmt::Display for Method {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Jacobi => "block-Jacobi PCG",
+            Self::Ssor => "block-SSOR PCG",
+            Self::Ilu => "block-D-ILU PCG",
             Self::Wide => "block-Jacobi PCG in lanes",
             Self::Multigrid => "multigrid PCG",
             Self::Banded => "banded LDLᵀ",
@@ -51,6 +59,10 @@ impl fmt::Display for Method {
 pub enum AnySolver<T> {
     /// [`Method::Jacobi`]
     Jacobi(BlockJacobi),
+    /// [`Method::Ssor`], and how many bytes it has
+    Ssor(Ssor<Vec<T>>, usize),
+    /// [`Method::Ilu`], and how many bytes it has
+    Ilu(BlockIlu<Vec<T>>, usize),
     /// [`Method::Wide`], and how many bytes it has
     Wide(Box<WideJacobi<Vec<T>, Vec<u32>, Host>>, usize),
     /// [`Method::Multigrid`], and how many bytes it has
@@ -66,6 +78,14 @@ impl<T: Real> AnySolver<T> {
     pub fn new<M: Memory<Real = T>>(method: Method, scene: &mut MassSpring<M>, model: &Model) -> Self {
         match method {
             Method::Jacobi => Self::Jacobi(BlockJacobi),
+            Method::Ssor => {
+                let numbers = Ssor::needs(model.pinned.len());
+                Self::Ssor(Ssor::new(vec![T::ZERO; numbers]), numbers * size_of::<T>())
+            }
+            Method::Ilu => {
+                let numbers = BlockIlu::needs(model.pinned.len());
+                Self::Ilu(BlockIlu::new(vec![T::ZERO; numbers]), numbers * size_of::<T>())
+            }
             Method::Wide => {
                 let (numbers, words) = WideJacobi::needs_of(scene, &mut vec![0; model.springs.len()]);
                 let bytes = numbers * size_of::<T>() + words * size_of::<u32>();
@@ -104,7 +124,9 @@ impl<T: Real> AnySolver<T> {
     pub fn bytes(&self) -> usize {
         match self {
             Self::Jacobi(_) => 0,
-            Self::Wide(_, bytes)
+            Self::Ssor(_, bytes)
+            | Self::Ilu(_, bytes)
+            | Self::Wide(_, bytes)
             | Self::Multigrid(_, bytes)
             | Self::Banded(_, bytes)
             | Self::Ldl(_, bytes) => *bytes,
@@ -120,6 +142,8 @@ impl<T: Real> Solver<T> for AnySolver<T> {
     ) -> Result<Solve<T>, StepError> {
         match self {
             Self::Jacobi(solver) => solver.solve(problem, stop),
+            Self::Ssor(solver, _) => solver.solve(problem, stop),
+            Self::Ilu(solver, _) => solver.solve(problem, stop),
             Self::Wide(solver, _) => solver.as_mut().solve(problem, stop),
             Self::Multigrid(solver, _) => solver.as_mut().solve(problem, stop),
             Self::Banded(solver, _) => solver.solve(problem, stop),
