@@ -16,6 +16,11 @@
 //! Dᵢ; and where Dᵢ has one too, the island is left to [`BlockJacobi`]. [`Solve::fallback`] says so in both cases. M stays
 //! symmetric and positive, since it is (P + L)P⁻¹(P + L)ᵀ with positive P.
 //!
+//! Not where [`crate::Ssor`] serves: with as many iterations it takes 1.1 to 1.2 times the time (on cloth:64 180 iterations
+//! and 25.3 ms, SSOR 165 and 20.6; on the bunny of the design 13 and 0.54, SSOR 13 and 0.48; block Jacobi 37.6 and 0.75). On
+//! a chain it is exact, but takes twice the time of [`crate::BandedLdl`] (chain:1000: 0.17 and 0.084 ms). It is for what is
+//! nearly a chain or a tree. (R = 1e-6; `cargo run --release -p hooke-benches --bin compare`, and with the mesh.)
+//!
 //! Cost: of the pivots 100 flops per spring and 40 per particle. Memory: 12 numbers per particle.
 //!
 //! Source: Meijerink & van der Vorst 1977; Pommerell 1992 (D-ILU); the bound on P is this crate's own.

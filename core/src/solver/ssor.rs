@@ -9,6 +9,13 @@
 //! Rows follow each other in the particles' order; another order is another M. They wait for each other, so nothing runs
 //! side by side.
 //!
+//! For bodies and meshes: on the bunny of the design 13 iterations and 0.48 ms a step where block Jacobi takes 31 and 0.75.
+//! Not for cloths and nets numbered in rows, where lanes run side by side: on cloth:64 165 iterations and 20.6 ms, block
+//! Jacobi 351 and 37.6, but that in lanes ([`crate::WideJacobi`]) 17.0, and [`crate::Multigrid`] 6.5. Not for chains
+//! ([`crate::BandedLdl`]). (R = 1e-6; `cargo run --release -p hooke-benches --bin compare -- cloth:64`, and with the mesh.)
+//!
+//! Cost: of D⁻¹ as in [`BlockJacobi`]; of an iteration see [`super::eisenstat`]. Memory: 6 numbers per particle.
+//!
 //! Source: Axelsson 1972; Eisenstat 1981.
 
 use crate::error::StepError;
