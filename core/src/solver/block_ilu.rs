@@ -90,29 +90,32 @@ impl<B> BlockIlu<B> {
         B: AsMut<[T]>,
     {
         Ok(match prepare(system, blocks, self.workspace.as_mut())? {
-            Some((mut by, _)) => by.apply(system, r, z),
+            Some(mut by) => by.apply(system, r, z),
             None => Jacobi::new(system, blocks).apply(r, z),
         })
     }
 }
 
-/// E, a block per row.
-struct Stored<'a, T>(&'a [[T; 6]]);
+/// E, a block per row, and whether a pivot was replaced.
+struct Stored<'a, T> {
+    blocks: &'a [[T; 6]],
+    replaced: bool,
+}
 
 impl<T: Real> Excess<T> for Stored<'_, T> {
     #[inline(always)]
     fn times(&self, row: usize, p: Vec3<T>, _: Vec3<T>) -> Vec3<T> {
-        self.0.get(row).map_or([T::ZERO; 3], |block| Sym3(*block).mul(p))
+        self.blocks.get(row).map_or([T::ZERO; 3], |block| Sym3(*block).mul(p))
     }
 }
 
-/// The iteration with P⁻¹ in `blocks`, and whether a pivot was replaced; `None` if a block of D is not positive.
+/// The iteration with P⁻¹ in `blocks`; `None` if a block of D is not positive.
 #[inline(never)]
 fn prepare<'a, T: Real, F: Force<T>>(
     system: &System<'_, T, F>,
     blocks: &'a mut [[T; 6]],
     workspace: &'a mut [T],
-) -> Result<Option<(Eisenstat<'a, T, Stored<'a, T>>, bool)>, StepError> {
+) -> Result<Option<Eisenstat<'a, T, Stored<'a, T>>>, StepError> {
     let numbers = BlockIlu::needs(system.particles());
     let lacks = StepError::Workspace { numbers, words: 0 };
     let workspace = workspace.get_mut(..numbers).ok_or(lacks)?;
@@ -120,7 +123,7 @@ fn prepare<'a, T: Real, F: Force<T>>(
     let excess = excess.as_chunks_mut().0;
     let Some(replaced) = factor(system, blocks, excess, sums.as_chunks_mut().0) else { return Ok(None) };
     let sums: &mut [Sums<T>] = sums.as_chunks_mut().0.as_chunks_mut().0;
-    Ok(Some((Eisenstat { inverse: blocks, excess: Stored(excess), sums }, replaced)))
+    Ok(Some(Eisenstat { inverse: blocks, excess: Stored { blocks: excess, replaced }, sums }))
 }
 
 /// P⁻¹ into `blocks` and E; answers whether a pivot was replaced. `pairs` is room for Hᵢⱼ of the row at hand.
@@ -194,9 +197,9 @@ impl<T: Real, B: AsMut<[T]>> Solver<T> for BlockIlu<B> {
         stop: &Stop<T>,
     ) -> Result<Solve<T>, StepError> {
         let Problem { system, vectors, block, free } = problem;
-        if let Some((mut by, replaced)) = prepare(&system, block, self.workspace.as_mut())? {
+        if let Some(mut by) = prepare(&system, block, self.workspace.as_mut())? {
             let solve = pcg::solve_by(&system, &mut by, vectors, stop, free);
-            return Ok(Solve { fallback: replaced, ..solve });
+            return Ok(Solve { fallback: by.excess.replaced, ..solve });
         }
         let solve = BlockJacobi.solve(Problem { system, vectors, block, free }, stop)?;
         Ok(Solve { fallback: true, ..solve })
