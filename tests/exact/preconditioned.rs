@@ -90,7 +90,7 @@ pub fn small_workspace<T: Real, S: Solver<T>>(needs: fn(usize) -> usize, solver:
     let mut scene = build::scene::<T>(&data);
     let before = build::bits(&scene);
     let step = |scene: &mut _, numbers: usize| {
-        let solver = solver(vec![T::ZERO / T::ZERO; numbers]);
+        let solver = solver(vec![T::from_f64(f64::NAN); numbers]);
         let gravity = build::real3([0.0, -9.81, 0.0]);
         hooke::MassSpring::step(
             scene,

@@ -7,12 +7,12 @@ use crate::data::SceneData;
 
 /// Block SSOR for these data. What lies in the workspace before does not matter.
 pub fn ssor<T: Real>(data: &SceneData) -> Ssor<Vec<T>> {
-    Ssor::new(vec![T::ZERO / T::ZERO; Ssor::needs(data.len())])
+    Ssor::new(vec![T::from_f64(f64::NAN); Ssor::needs(data.len())])
 }
 
 /// Block D-ILU for these data. What lies in the workspace before does not matter.
 pub fn ilu<T: Real>(data: &SceneData) -> BlockIlu<Vec<T>> {
-    BlockIlu::new(vec![T::ZERO / T::ZERO; BlockIlu::needs(data.len())])
+    BlockIlu::new(vec![T::from_f64(f64::NAN); BlockIlu::needs(data.len())])
 }
 
 /// A system's matrix.
