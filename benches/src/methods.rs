@@ -15,6 +15,8 @@ pub(crate) fn name(method: Method) -> &'static str {
         Method::Jacobi => "hooke block-Jacobi PCG",
         Method::Wide => "hooke wide PCG",
         Method::Multigrid => "hooke multigrid PCG",
+        Method::Ssor => "hooke SSOR PCG",
+        Method::Ilu => "hooke D-ILU PCG",
         Method::Banded => "hooke banded LDL",
         Method::Ldl => "hooke sparse LDL",
     }

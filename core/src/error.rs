@@ -61,7 +61,7 @@ pub enum StepError {
     /// The step would give this particle, or one of the island that begins with it, an infinite or NaN position or
     /// velocity, or no finite error bound.
     NotFinite(usize),
-    /// A direct solver's workspace is too small: it needs so many numbers and words, or more where other islands are
+    /// A solver's workspace is too small: it needs so many numbers and words, or more where other islands are
     /// larger still.
     Workspace {
         /// How many numbers.

@@ -28,7 +28,8 @@ pub struct Solve<T> {
     pub lower: T,
     /// How it ended.
     pub ending: Ending,
-    /// Did a direct solver break down, so that block-Jacobi PCG had to answer?
+    /// Did factors break down, so that block-Jacobi PCG had to answer, or blocks of the diagonal stood in for pivots
+    /// ([`crate::BlockIlu`])?
     pub fallback: bool,
 }
 
@@ -72,7 +73,7 @@ pub struct Report<T> {
     pub capped: u32,
     /// Islands that stalled above the floor.
     pub stalled: u32,
-    /// Islands where a direct solver broke down and block-Jacobi PCG answered.
+    /// Islands where factors broke down: see [`Solve::fallback`].
     pub fallbacks: u32,
     /// Springs that no island needed: broken, or with both ends pinned.
     pub springs_skipped: u32,

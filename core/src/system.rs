@@ -87,6 +87,19 @@ impl<T: Real, F: Force<T>> System<'_, T, F> {
         form.sum()
     }
 
+    /// xᵀAx alone, by the same sum.
+    #[inline(never)]
+    pub(crate) fn form(&self, x: &[Vec3<T>]) -> T {
+        let mut form = Lanes::new();
+        for (row, (m, x)) in self.matrix.inertia.iter().zip(x).enumerate() {
+            form.add(row, *m * vec3::dot(*x, *x));
+        }
+        let at = |i: usize| x.get(i).copied().unwrap_or([T::ZERO; 3]);
+        self.each_spring(|row, other, h| form.add(row, h.mul_and_form(vec3::sub(at(row), at(other))).1));
+        self.each_point(|row, h| form.add(row, h.mul_and_form(at(row)).1));
+        form.sum()
+    }
+
     /// Writes the 3×3 blocks of A's diagonal: M̃ + Σ H.
     #[inline(never)]
     pub(crate) fn diagonal(&self, blocks: &mut [[T; 6]]) {

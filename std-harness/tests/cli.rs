@@ -224,6 +224,13 @@ fn time_and_method_options_take_effect() {
         );
         f["workspace_bytes"].as_u64()
     };
+    let iterative = |solver: &str| {
+        let f = figures(&format!("cloth:8 --steps 5 --solver {solver}"));
+        assert_eq!(f["fallback_steps"].as_u64(), Some(0));
+        (f["iterations"].as_u64(), f["workspace_bytes"].as_u64())
+    };
+    let [jacobi, ssor, ilu] = ["jacobi", "ssor", "ilu"].map(iterative);
+    assert!(ssor.0 < jacobi.0 && ilu.0 < jacobi.0 && jacobi.1 < ssor.1 && ssor.1 < ilu.1);
     assert!(bytes("jacobi") < bytes("ldl") && bytes("jacobi") < bytes("banded"));
     let folder = Scratch::new();
     folder.ok("run cloth:4 --seconds 1 --fps 5 --out o");

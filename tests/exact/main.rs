@@ -4,6 +4,7 @@
 // Indices are those of the formulas.
 #![allow(clippy::needless_range_loop)]
 
+mod block_ilu;
 mod cables;
 mod catenary;
 mod coincident;
@@ -23,9 +24,11 @@ mod momentum;
 mod multigrid;
 mod one_spring;
 mod pins;
+mod preconditioned;
 mod rest;
 mod same_bits;
 mod scalings;
 mod snapshots;
+mod ssor;
 mod stiffness;
 mod wide;

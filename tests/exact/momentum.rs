@@ -4,6 +4,7 @@ use hooke::{BlockJacobi, LinearlyImplicitEuler, Real, Solver, SpringDamping};
 use hooke_tests::data::SceneData;
 use hooke_tests::generate::{self, Ingredients};
 use hooke_tests::random::Random;
+use hooke_tests::triangular::{ilu, ssor};
 use hooke_tests::vec_memory::VecScene;
 use hooke_tests::{allowed, build, direct};
 
@@ -62,6 +63,16 @@ fn momentum_of_a_free_island_is_kept_to_rounding_by_direct_solvers() {
     kept::<f32, _>(10_000, allowed::U32, direct::banded);
     kept::<f64, _>(10_000, allowed::U64, direct::sparse);
     kept::<f32, _>(10_000, allowed::U32, direct::sparse);
+}
+
+#[test]
+fn momentum_of_a_free_island_is_kept_to_rounding_by_ssor_and_d_ilu_even_when_cut_short() {
+    for cut in [1, 3, 10_000] {
+        kept::<f64, _>(cut, allowed::U64, ssor);
+        kept::<f32, _>(cut, allowed::U32, ssor);
+        kept::<f64, _>(cut, allowed::U64, ilu);
+        kept::<f32, _>(cut, allowed::U32, ilu);
+    }
 }
 
 #[test]

@@ -9,6 +9,7 @@ use hooke_tests::direct;
 use hooke_tests::generate::{self, Ingredients};
 use hooke_tests::multigrid::multigrid;
 use hooke_tests::random::Random;
+use hooke_tests::triangular::{ilu, ssor};
 use hooke_tests::{allowed, textbook};
 use nalgebra::DVector;
 
@@ -155,6 +156,14 @@ fn a_direct_step_is_the_dense_solve_within_the_bound_whatever_the_tolerance() {
     against_dense::<f64, _>(&[1e-1, 1e-8, 1e-12], allowed::U64, 12, direct::sparse);
     against_dense::<f32, _>(&[1e-1, 1e-4, 1e-12], allowed::U32, 13, direct::banded);
     against_dense::<f32, _>(&[1e-1, 1e-4, 1e-12], allowed::U32, 14, direct::sparse);
+}
+
+#[test]
+fn a_step_of_ssor_or_d_ilu_is_the_dense_solve_within_the_bound() {
+    against_dense::<f64, _>(&[1e-1, 1e-3, 1e-6, 1e-8], allowed::U64, 17, ssor);
+    against_dense::<f32, _>(&[1e-1, 1e-3, 1e-4], allowed::U32, 18, ssor);
+    against_dense::<f64, _>(&[1e-1, 1e-3, 1e-6, 1e-8], allowed::U64, 19, ilu);
+    against_dense::<f32, _>(&[1e-1, 1e-3, 1e-4], allowed::U32, 20, ilu);
 }
 
 #[test]

@@ -18,4 +18,5 @@ pub mod precise;
 pub mod random;
 pub mod sparse;
 pub mod textbook;
+pub mod triangular;
 pub mod vec_memory;

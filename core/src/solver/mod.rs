@@ -2,8 +2,10 @@
 //! needs beyond the scene's own vectors; one that a program does not name costs it nothing.
 
 mod banded_ldl;
+mod block_ilu;
 mod chain;
 mod direct;
+mod eisenstat;
 mod elimination;
 pub(crate) mod jacobi;
 mod multigrid;
@@ -11,13 +13,17 @@ mod panel;
 pub(crate) mod pcg;
 mod pivot;
 mod sparse_ldl;
+mod ssor;
 mod supernodes;
+mod triangle;
 
 pub use banded_ldl::BandedLdl;
+pub use block_ilu::BlockIlu;
 pub use jacobi::{BlockJacobi, Jacobi, Preconditioner};
 pub use multigrid::{LevelPart, Multigrid};
 pub use pcg::Stop;
 pub use sparse_ldl::SparseLdl;
+pub use ssor::Ssor;
 
 use crate::assembly::{Assembled, assemble};
 use crate::error::StepError;

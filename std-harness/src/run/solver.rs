@@ -4,8 +4,8 @@ use std::fmt;
 
 use hooke::solver::{Answer, Island};
 use hooke::{
-    BandedLdl, BlockJacobi, Force, Law, MassSpring, Memory, Multigrid, Real, Solve, Solver, SparseLdl,
-    StepError, Stop, WideJacobi,
+    BandedLdl, BlockIlu, BlockJacobi, Force, Law, MassSpring, Memory, Multigrid, Real, Solve, Solver,
+    SparseLdl, Ssor, StepError, Stop, Wide, WideJacobi,
 };
 
 use crate::host::Host;
@@ -16,6 +16,10 @@ use crate::scene::Model;
 pub enum Method {
     /// Block-Jacobi PCG.
     Jacobi,
+    /// Block-SSOR PCG.
+    Ssor,
+    /// Block-D-ILU PCG.
+    Ilu,
     /// Block-Jacobi PCG in lanes, on scenes whose springs join particles at few distances.
     Wide,
     /// PCG around one aggregation-multigrid cycle in f32.
@@ -27,8 +31,10 @@ pub enum Method {
 }
 
 /// What `--solver` calls them.
-pub const METHODS: [(&str, Method); 5] = [
+pub const METHODS: [(&str, Method); 7] = [
     ("jacobi", Method::Jacobi),
+    ("ssor", Method::Ssor),
+    ("ilu", Method::Ilu),
     ("wide", Method::Wide),
     ("multigrid", Method::Multigrid),
     ("banded", Method::Banded),
@@ -39,6 +45,8 @@ impl fmt::Display for Method {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Jacobi => "block-Jacobi PCG",
+            Self::Ssor => "block-SSOR PCG",
+            Self::Ilu => "block-D-ILU PCG",
             Self::Wide => "block-Jacobi PCG in lanes",
             Self::Multigrid => "multigrid PCG",
             Self::Banded => "banded LDLᵀ",
@@ -47,15 +55,22 @@ impl fmt::Display for Method {
     }
 }
 
+/// Multigrid in lanes.
+type Lanes<T> = Wide<Vec<T>, Vec<u32>, Host, Multigrid<Vec<f32>, Vec<u32>, Host>>;
+
 /// Any of the solvers, decided when the program runs.
 #[derive(Debug, Clone)]
 pub enum AnySolver<T> {
     /// [`Method::Jacobi`]
     Jacobi(BlockJacobi),
+    /// [`Method::Ssor`], and how many bytes it has
+    Ssor(Ssor<Vec<T>>, usize),
+    /// [`Method::Ilu`], and how many bytes it has
+    Ilu(BlockIlu<Vec<T>>, usize),
     /// [`Method::Wide`], and how many bytes it has
     Wide(Box<WideJacobi<Vec<T>, Vec<u32>, Host>>, usize),
-    /// [`Method::Multigrid`], and how many bytes it has
-    Multigrid(Box<Multigrid<Vec<f32>, Vec<u32>, Host>>, usize),
+    /// [`Method::Multigrid`], in lanes where a scene has any, and how many bytes it has
+    Multigrid(Box<Lanes<T>>, usize),
     /// [`Method::Banded`], and how many numbers it has
     Banded(BandedLdl<Vec<T>>, usize),
     /// [`Method::Ldl`], and how many bytes it has
@@ -67,6 +82,14 @@ impl<T: Real> AnySolver<T> {
     pub fn new<M: Memory<Real = T>>(method: Method, scene: &mut MassSpring<M>, model: &Model) -> Self {
         match method {
             Method::Jacobi => Self::Jacobi(BlockJacobi),
+            Method::Ssor => {
+                let numbers = Ssor::needs(model.pinned.len());
+                Self::Ssor(Ssor::new(vec![T::ZERO; numbers]), numbers * size_of::<T>())
+            }
+            Method::Ilu => {
+                let numbers = BlockIlu::needs(model.pinned.len());
+                Self::Ilu(BlockIlu::new(vec![T::ZERO; numbers]), numbers * size_of::<T>())
+            }
             Method::Wide => {
                 let (numbers, words) = WideJacobi::needs_of(scene, true);
                 let bytes = numbers * size_of::<T>() + words * size_of::<u32>();
@@ -75,9 +98,12 @@ impl<T: Real> AnySolver<T> {
             }
             Method::Multigrid => {
                 let (numbers, words) = Multigrid::needs(model.pinned.len(), model.springs.len());
-                let bytes = numbers * size_of::<f32>() + words * size_of::<u32>();
-                let solver = Multigrid::new(vec![0.0; numbers], vec![0; words], Host::new());
-                Self::Multigrid(Box::new(solver), bytes)
+                let (lanes, places) = WideJacobi::needs_of(scene, true);
+                let bytes =
+                    numbers * size_of::<f32>() + lanes * size_of::<T>() + (words + places) * size_of::<u32>();
+                let multigrid = Multigrid::new(vec![0.0; numbers], vec![0; words], Host::new());
+                let lanes = Wide::new(vec![T::ZERO; lanes], vec![0; places], Host::new());
+                Self::Multigrid(Box::new(lanes.around(multigrid)), bytes)
             }
             Method::Banded => {
                 let numbers = BandedLdl::needs_of(scene);
@@ -105,7 +131,9 @@ impl<T: Real> AnySolver<T> {
     pub fn bytes(&self) -> usize {
         match self {
             Self::Jacobi(_) => 0,
-            Self::Wide(_, bytes)
+            Self::Ssor(_, bytes)
+            | Self::Ilu(_, bytes)
+            | Self::Wide(_, bytes)
             | Self::Multigrid(_, bytes)
             | Self::Banded(_, bytes)
             | Self::Ldl(_, bytes) => *bytes,
@@ -123,6 +151,8 @@ impl<T: Real> Solver<T> for AnySolver<T> {
             Self::Jacobi(solver) => solver.answer::<F, L>(to, stop),
             Self::Wide(solver, _) => solver.as_mut().answer::<F, L>(to, stop),
             Self::Multigrid(solver, _) => solver.as_mut().answer::<F, L>(to, stop),
+            Self::Ssor(solver, _) => solver.answer::<F, L>(to, stop),
+            Self::Ilu(solver, _) => solver.answer::<F, L>(to, stop),
             Self::Banded(solver, _) => solver.answer::<F, L>(to, stop),
             Self::Ldl(solver, _) => solver.as_mut().answer::<F, L>(to, stop),
         }
@@ -135,6 +165,8 @@ impl<T: Real> Solver<T> for AnySolver<T> {
     ) -> Result<Solve<T>, StepError> {
         match self {
             Self::Jacobi(solver) => solver.solve(problem, stop),
+            Self::Ssor(solver, _) => solver.solve(problem, stop),
+            Self::Ilu(solver, _) => solver.solve(problem, stop),
             Self::Wide(solver, _) => solver.as_mut().solve(problem, stop),
             Self::Multigrid(solver, _) => solver.as_mut().solve(problem, stop),
             Self::Banded(solver, _) => solver.solve(problem, stop),

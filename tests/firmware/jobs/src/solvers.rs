@@ -1,8 +1,8 @@
 //! The 8×8 cloth by each solver that is not the default, in a workspace of its own: every one has its golden bits.
 
 use hooke::{
-    BandedLdl, Hookean, LinearlyImplicitEuler, MassSpring, Memory, Multigrid, Portable, Scene, Solver,
-    SparseLdl, WideJacobi,
+    BandedLdl, BlockIlu, Hookean, LinearlyImplicitEuler, MassSpring, Memory, Multigrid, Portable, Scene,
+    Solver, SparseLdl, Ssor, WideJacobi,
 };
 use static_cell::ConstStaticCell;
 
@@ -18,6 +18,8 @@ type Cloth<T> = Scene<T, PARTICLES, SPRINGS, Hookean>;
 
 /// The farthest that a spring of the cloth reaches, and what that needs.
 const BANDED: usize = BandedLdl::needs(PARTICLES, SIDE + 1);
+const SSOR: usize = Ssor::needs(PARTICLES);
+const ILU: usize = BlockIlu::needs(PARTICLES);
 const GRID: (usize, usize) = Multigrid::needs(PARTICLES, SPRINGS);
 /// Numbers and words of the others: more than they need.
 const NUMBERS: usize = 12288;
@@ -45,6 +47,10 @@ job!(BANDED_F32, f32, "banded", BandedLdl::new(zeros!(f32, BANDED)));
 job!(BANDED_F64, f64, "banded", BandedLdl::new(zeros!(f64, BANDED)));
 job!(SPARSE_F32, f32, "sparse", SparseLdl::new(backwards(), zeros!(f32, NUMBERS), zeros!(u32, WORDS)));
 job!(SPARSE_F64, f64, "sparse", SparseLdl::new(backwards(), zeros!(f64, NUMBERS), zeros!(u32, WORDS)));
+job!(SSOR_F32, f32, "ssor", Ssor::new(zeros!(f32, SSOR)));
+job!(SSOR_F64, f64, "ssor", Ssor::new(zeros!(f64, SSOR)));
+job!(ILU_F32, f32, "ilu", BlockIlu::new(zeros!(f32, ILU)));
+job!(ILU_F64, f64, "ilu", BlockIlu::new(zeros!(f64, ILU)));
 job!(WIDE_F32, f32, "wide", WideJacobi::new(zeros!(f32, NUMBERS), zeros!(u32, WORDS), Portable));
 job!(WIDE_F64, f64, "wide", WideJacobi::new(zeros!(f64, NUMBERS), zeros!(u32, WORDS), Portable));
 job!(MULTIGRID_F32, f32, "multigrid", Multigrid::new(zeros!(f32, GRID.0), zeros!(u32, GRID.1), Portable));
