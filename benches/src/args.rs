@@ -34,7 +34,7 @@ pub(crate) struct Args {
     /// The plot of --growth [default: out/growth.svg]
     #[arg(long, value_name = "FILE", requires = "growth")]
     pub(crate) svg: Option<PathBuf>,
-    /// Overrides of the scenes, as `hooke run` takes them: --stiffness --mass --gravity --velocity --pin --dt
+    /// Overrides of the scenes, as `hooke run` takes them: --stiffness --mass --gravity --velocity --pin --dt --renumber
     #[arg(last = true, value_name = "FLAGS", allow_hyphen_values = true)]
     pub(crate) flags: Vec<String>,
 }
@@ -53,7 +53,8 @@ install libopenblas0-serial too, or CHOLMOD works with the slow reference BLAS.
   compare bunny.mesh -- --stiffness 1e5 --mass 1 --gravity 0,-9.8,0 --pin min-y:3 --dt 0.005 --velocity 50,0,0";
 
 /// The options of `hooke run` that change a scene.
-const OVERRIDES: [&str; 6] = ["--stiffness", "--mass", "--gravity", "--velocity", "--pin", "--dt"];
+const OVERRIDES: [&str; 7] =
+    ["--stiffness", "--mass", "--gravity", "--velocity", "--pin", "--dt", "--renumber"];
 
 impl Args {
     /// Parses a command line, the program's name first. `Err(Ok(text))` is help to print, `Err(Err(e))` bad input.

@@ -40,7 +40,7 @@ pub(crate) trait Job {
 
 /// Builds the scene with only the forces that it has, and does the job: what a scene does not name costs it nothing.
 pub(crate) fn with_scene<J: Job>(plan: &Plan, job: J) -> Result<J::Output, Wrong> {
-    let model = &plan.model;
+    let model = &*plan.ordered();
     let euler: Euler<_> = LinearlyImplicitEuler::new(plan.dt).with(Gravity(model.gravity));
     if model.drag == 0.0 && !model.is_damped() {
         return job.run(Scenario::new(model, euler)?);

@@ -72,6 +72,10 @@ pub struct RunArgs {
     /// At most so many iterations per island and step [default: 10000]
     #[arg(long, value_name = "N", help_heading = "Method")]
     pub max_iterations: Option<u32>,
+    /// Another numbering of the particles inside the run: rcm puts those that springs join close together (reverse
+    /// Cuthill–McKee), for meshes numbered at random; every output keeps your ids, last digits may differ
+    #[arg(long, value_enum, value_name = "HOW", default_value_t = Renumber::None, help_heading = "Method")]
+    pub renumber: Renumber,
     /// Precision of the simulation
     #[arg(long, value_enum, default_value_t = Precision::F64, help_heading = "Method")]
     pub precision: Precision,
@@ -117,6 +121,16 @@ pub enum Precision {
     F64,
     /// Single.
     F32,
+}
+
+/// How the particles are numbered inside a run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub enum Renumber {
+    /// As the scene has them.
+    #[default]
+    None,
+    /// Reverse Cuthill–McKee.
+    Rcm,
 }
 
 /// Three numbers, `X,Y,Z`.

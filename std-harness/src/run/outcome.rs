@@ -134,7 +134,7 @@ impl Outcome {
             error_bound_j: 0.0,
             error_lower_j: 0.0,
             workspace_bytes: simulation.workspace_bytes(),
-            renumbered: false,
+            renumbered: plan.numbering.is_some(),
             speed_max: simulation.fastest().1,
             failure: None,
             energy,

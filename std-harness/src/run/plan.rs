@@ -1,15 +1,17 @@
 //! What a run will do, decided and checked before anything is simulated or written: the scene with its overrides, the
 //! step, the method, the outputs. An option wins over the scene file, the scene file over the defaults.
 
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
-use crate::cli::{Precision, RunArgs};
+use crate::cli::{Precision, Renumber, RunArgs};
 use crate::error::InputError;
 use crate::nearest;
 use crate::output::safe;
 use crate::run::recorder::FILES;
-use crate::run::solver::{METHODS, Method};
-use crate::scene::{Model, source};
+use crate::run::solver::{METHODS, Method, in_lanes};
+use crate::scene::renumber::Numbering;
+use crate::scene::{Model, renumber, source};
 
 /// The most steps a run may have.
 const MOST_STEPS: f64 = 1e9;
@@ -19,6 +21,8 @@ const MOST_STEPS: f64 = 1e9;
 pub struct Plan {
     /// The scene, overrides applied.
     pub model: Model,
+    /// How the particles are numbered inside the run, if not as in `model`.
+    pub numbering: Option<Numbering>,
     /// Time step, s.
     pub dt: f64,
     /// Number of steps.
@@ -104,6 +108,10 @@ impl Plan {
                 .notes
                 .push(format!("{seconds} s is no whole number of steps: the last one ends at {end} s"));
         }
+        let numbering = match args.renumber {
+            Renumber::None => None,
+            Renumber::Rcm => renumbered(&mut model),
+        };
         let tolerance = args.tolerance.map(|r| not_negative("--tolerance", r)).transpose()?;
         let absolute = not_negative("--absolute", args.absolute.unwrap_or(0.0))?;
         let fps = positive("--fps", args.fps.or(wanted.fps).unwrap_or(60.0))?;
@@ -114,6 +122,7 @@ impl Plan {
         let out = args.out.clone().or(wanted.dir).or_else(|| (!only_files).then(|| PathBuf::from("out")));
         Ok(Self {
             model,
+            numbering,
             dt,
             steps: steps as u64,
             tolerance,
@@ -128,6 +137,14 @@ impl Plan {
             inputs,
             quiet: args.quiet,
         })
+    }
+
+    /// The scene in the order that the kernel gets it.
+    pub fn ordered(&self) -> Cow<'_, Model> {
+        match &self.numbering {
+            Some(numbering) => Cow::Owned(numbering.model(&self.model)),
+            None => Cow::Borrowed(&self.model),
+        }
     }
 
     /// Makes sure that every output can be written, before the first step.
@@ -179,6 +196,25 @@ fn resolved(path: &Path) -> PathBuf {
         (Ok(parent), Some(name)) => parent.join(name),
         _ => path.to_path_buf(),
     }
+}
+
+/// Reverse Cuthill–McKee where it brings springs' ends closer together, and a note of what became of it. A numbering of
+/// few distances (a grid's) is kept: lanes live on it, and what they gain is more.
+fn renumbered(model: &mut Model) -> Option<Numbering> {
+    if in_lanes(model) {
+        model.notes.push("not renumbered: springs join particles at few distances already".into());
+        return None;
+    }
+    let numbering = Numbering::reverse_cuthill_mckee(model);
+    let (old, new) = (renumber::reach(model), renumber::reach(&numbering.model(model)));
+    let reach = |(mean, most): (f64, usize)| format!("{mean:.1} rows on average and {most} at most");
+    let better = new.0 < old.0;
+    model.notes.push(if better {
+        format!("renumbered: springs reach {}, not {}", reach(new), reach(old))
+    } else {
+        format!("not renumbered: springs reach {} already; rcm would make it {}", reach(old), reach(new))
+    });
+    better.then_some(numbering)
 }
 
 fn override_model(model: &mut Model, args: &RunArgs) -> Result<(), InputError> {

@@ -128,6 +128,13 @@ impl<T: Real> Solver<T> for AnySolver<T> {
     }
 }
 
+/// Do the springs of some island join particles at few distances in the numbering, so that [`Method::Wide`] has lanes?
+pub fn in_lanes(model: &Model) -> bool {
+    let mut scratch = vec![0; model.springs.len()];
+    // A model that the kernel refuses has none.
+    model.build::<f64>().is_ok_and(|mut scene| WideJacobi::needs_of(&mut scene, &mut scratch).0 > 0)
+}
+
 /// An order of the particles that keeps the factor of their free part sparse.
 pub fn minimum_degree(pinned: &[bool], springs: impl Iterator<Item = [usize; 2]>) -> Vec<u32> {
     let particles = pinned.len();

@@ -4,6 +4,7 @@ pub mod catalog;
 pub mod from_mesh;
 pub mod motion;
 pub mod pins;
+pub mod renumber;
 pub mod source;
 pub mod toml;
 
