@@ -31,6 +31,10 @@ pub(crate) struct Args {
     /// How time and memory of Hooke's methods grow: cloth:32 to 512, lattices up to 10⁶ springs (or the SCENEs given)
     #[arg(long)]
     pub(crate) growth: bool,
+    /// What `hooke run --solver auto` should choose: every solver on a grid of scenes, steps and tolerances, who wins, and
+    /// the weights that fit (or on the SCENEs, the --dt, the --tolerance given)
+    #[arg(long, conflicts_with = "growth")]
+    pub(crate) choose: bool,
     /// The plot of --growth [default: out/growth.svg]
     #[arg(long, value_name = "FILE", requires = "growth")]
     pub(crate) svg: Option<PathBuf>,

@@ -16,7 +16,7 @@ use crate::bandwidth::{self, Level};
 use crate::measure::{self, Measured};
 use crate::operator::{self, Product};
 use crate::scenario::{Euler, Scenario};
-use crate::{growth, memory, output, table};
+use crate::{choose, growth, memory, output, table};
 
 /// How it can go wrong.
 pub(crate) enum Wrong {
@@ -138,7 +138,11 @@ pub fn main() -> ExitCode {
         Err(Err(error)) => return complained(&error.to_string(), 2),
     };
     let svg = args.svg.clone().unwrap_or_else(|| PathBuf::from("out/growth.svg"));
-    let done = if args.growth { growth::growth(&args, &svg) } else { compare(&args) };
+    let done = match (args.growth, args.choose) {
+        (true, _) => growth::growth(&args, &svg),
+        (_, true) => choose::choose(&args),
+        _ => compare(&args),
+    };
     match done {
         Ok(text) => said(&text),
         Err(Wrong::Input(error)) => complained(&error.to_string(), 2),

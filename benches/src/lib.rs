@@ -24,6 +24,7 @@ mod operator;
 
 // ... and what is made of it.
 mod args;
+mod choose;
 mod compare;
 mod family;
 mod fit;
@@ -33,6 +34,7 @@ mod measure;
 mod output;
 mod row;
 mod table;
+mod weights;
 
 pub use compare::main as compare;
 pub use moving::{Euler, HostScene, moving};

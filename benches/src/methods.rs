@@ -148,7 +148,7 @@ impl<F: Force<f64> + Clone> Step for Ordered<'_, F> {
         let solver = self.solver.get_or_insert_with(|| {
             let state = scene.state();
             let pinned: Vec<bool> = (0..scene.positions().len()).map(|i| scene.is_pinned(i)).collect();
-            let order = minimum_degree(
+            let (order, _) = minimum_degree(
                 &pinned,
                 (0..state.springs()).filter_map(|j| state.ends(j).map(|(a, b)| [a, b])),
             );

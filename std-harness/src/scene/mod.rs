@@ -2,6 +2,7 @@
 
 pub mod catalog;
 pub mod from_mesh;
+pub mod graph;
 pub mod motion;
 pub mod pins;
 pub mod renumber;

@@ -1,0 +1,173 @@
+//! `--solver auto`: which solver a scene gets, decided from what it is, never by a clock: the same scene and options choose
+//! the same solver on every machine.
+//!
+//! Every solver's work in a step is foretold, and the least wins. Work is counted (springs, iterations, multiplications of
+//! a factorisation) and weighed with [`WEIGHTS`], nanoseconds of one machine. Their ratios are what matters; to take them
+//! anew, on another machine or after a solver has changed:
+//!
+//! `cargo run --release -p hooke-benches --bin compare -- --choose`
+//!
+//! It times every solver on a grid of scenes, steps and tolerances, prints who wins beside what is chosen here, and the
+//! weights that fit its times best, ready to be pasted.
+//!
+//! **Iterations.** Block Jacobi's error shrinks over a distance or a stiffness ratio, whichever is less: it needs about
+//! c·min(√(1+σ), depth) iterations per halving of the residual, σ the island's stiffness and depth its distance from a pin
+//! ([`super::structure`]). Multigrid's grow with the square root of that.
+//!
+//! An absolute tolerance or few `--max-iterations` end a solve earlier than is foretold here.
+
+use std::fmt::Write;
+
+use super::solver::{Fill, METHODS, Method, in_lanes, minimum_degree};
+use super::structure::{Island, islands};
+use crate::scene::Model;
+
+/// What a unit of work takes.
+#[derive(Debug, Clone, Copy)]
+pub struct Weights {
+    /// Iterations of block Jacobi per halving and unit of min(√(1+σ), depth).
+    pub jacobi_iterations: f64,
+    /// Iterations of multigrid per halving and unit of the root of that.
+    pub multigrid_iterations: f64,
+    /// ns per row and spring, once a step: block Jacobi, lanes, multigrid.
+    pub setup: [f64; 3],
+    /// ns per row and spring and iteration: block Jacobi, lanes, multigrid.
+    pub iteration: [f64; 3],
+    /// ns per row of a chain that is eliminated from both ends.
+    pub chain: f64,
+    /// ns per row, and per block product of the factorisation (w² of them a row): a band.
+    pub band: [f64; 2],
+    /// ns per row and spring, per block of the factor, and per block product: sparse LDLᵀ.
+    pub ldl: [f64; 3],
+}
+
+/// Taken by the command above.
+pub const WEIGHTS: Weights = Weights {
+    jacobi_iterations: 0.28,
+    multigrid_iterations: 0.2,
+    setup: [10.0, 15.0, 30.0],
+    iteration: [2.5, 1.2, 15.0],
+    chain: 200.0,
+    band: [100.0, 10.0],
+    ldl: [50.0, 20.0, 10.0],
+};
+
+/// More memory than this is not asked for a factor, bytes.
+const MOST_BYTES: f64 = 1e9;
+/// In a scene of more particles no elimination order is looked for: it takes longer than many steps.
+const MOST_PARTICLES: usize = 100_000;
+
+/// A scene as it bears on the choice.
+#[derive(Debug, Clone)]
+pub struct Case {
+    /// Its islands.
+    pub islands: Vec<Island>,
+    /// How often a solve must halve its residual.
+    pub halvings: f64,
+    /// Do its springs lie in lanes?
+    pub lanes: bool,
+    /// The sparse factor, if an order was looked for.
+    pub fill: Option<Fill>,
+}
+
+impl Case {
+    /// Looks at a scene, in the order that the kernel gets.
+    pub fn new(model: &Model, dt: f64, tolerance: f64) -> Self {
+        let springs = model.springs.iter().map(|spring| spring.ends);
+        let small = model.pinned.len() <= MOST_PARTICLES;
+        Self {
+            islands: islands(model, dt),
+            halvings: halvings(tolerance),
+            lanes: in_lanes(model),
+            fill: small.then(|| minimum_degree(&model.pinned, springs).1),
+        }
+    }
+
+    /// min(√(1+σ), depth) of an island.
+    pub fn difficulty(island: &Island) -> f64 {
+        let (root, depth) = ((1.0 + island.stiffness).sqrt(), island.depth as f64);
+        if root < depth { root } else { depth }
+    }
+
+    /// Rows and springs.
+    pub fn size(island: &Island) -> f64 {
+        (island.rows + island.springs) as f64
+    }
+
+    /// The work of a step's solves, ms of the machine that the weights are from; or why it cannot be.
+    pub fn work(&self, method: Method) -> Result<f64, &'static str> {
+        let w = &WEIGHTS;
+        let over = |work: &dyn Fn(&Island) -> f64| 1e-6 * self.islands.iter().map(work).sum::<f64>();
+        let iterations = |island: &Island| w.jacobi_iterations * Self::difficulty(island) * self.halvings;
+        match method {
+            Method::Jacobi => {
+                Ok(over(&|island| Self::size(island) * (w.setup[0] + w.iteration[0] * iterations(island))))
+            }
+            Method::Wide if !self.lanes => Err("springs join particles at too many distances"),
+            Method::Wide => {
+                Ok(over(&|island| Self::size(island) * (w.setup[1] + w.iteration[1] * iterations(island))))
+            }
+            Method::Multigrid => Ok(over(&|island| {
+                let iterations = w.multigrid_iterations * Self::difficulty(island).sqrt() * self.halvings;
+                Self::size(island) * (w.setup[2] + w.iteration[2] * iterations)
+            })),
+            Method::Banded => {
+                let bytes = |island: &Island| 72.0 * island.rows as f64 * island.half_bandwidth as f64;
+                if self.islands.iter().any(|island| bytes(island) > MOST_BYTES) {
+                    return Err("the band does not fit the memory");
+                }
+                Ok(over(&|island| {
+                    let (rows, wide) = (island.rows as f64, island.half_bandwidth as f64);
+                    rows * if wide <= 1.0 { w.chain } else { w.band[0] + w.band[1] * wide * wide }
+                }))
+            }
+            Method::Ldl => {
+                let Some(fill) = self.fill else { return Err("too many particles for an elimination order") };
+                if 72.0 * fill.blocks > MOST_BYTES {
+                    return Err("the factor does not fit the memory");
+                }
+                let factor = 1e-6 * (w.ldl[1] * fill.blocks + w.ldl[2] * fill.products);
+                Ok(over(&|island| w.ldl[0] * Self::size(island)) + factor)
+            }
+        }
+    }
+}
+
+/// −log₂ R, rounded: from the number's exponent, so that no library's logarithm decides.
+fn halvings(tolerance: f64) -> f64 {
+    let exponent = (tolerance.to_bits() >> 52) as f64 - 1023.0;
+    // No solve gets farther than its rounding lets it.
+    if tolerance > 0.0 && exponent > -44.0 { if exponent < 0.0 { -exponent } else { 0.0 } } else { 44.0 }
+}
+
+/// What was chosen, and why.
+#[derive(Debug, Clone, PartialEq)]
+pub struct Choice {
+    /// The solver.
+    pub method: Method,
+    /// Why, in a line.
+    pub reason: String,
+}
+
+/// Chooses the solver of least work; between equals the one that stands first in [`METHODS`].
+pub fn choose(model: &Model, dt: f64, tolerance: f64) -> Choice {
+    let case = Case::new(model, dt, tolerance);
+    let (mut able, mut unable) = (Vec::new(), String::new());
+    for (name, method) in METHODS {
+        match case.work(method) {
+            Ok(work) => able.push((work, name, method)),
+            // Writing to a String cannot fail.
+            Err(why) => _ = write!(unable, "; {name} cannot: {why}"),
+        }
+    }
+    able.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let work: Vec<String> = able.iter().map(|(work, name, _)| format!("{name} {work:.2}")).collect();
+    Choice {
+        // Block Jacobi always can.
+        method: able.first().map_or(Method::Jacobi, |best| best.2),
+        reason: format!(
+            "least work foretold, in ms a step of the machine that was measured: {}{unable}",
+            work.join(", ")
+        ),
+    }
+}
