@@ -5,6 +5,7 @@
 
 use cpu_time::ThreadTime;
 use hooke::Force;
+use hooke_harness::cli::Precision;
 use hooke_harness::error::InputError;
 use hooke_harness::output::safe;
 use hooke_harness::run::auto::Case;
@@ -79,7 +80,7 @@ impl Job for Choose<'_> {
         scenario.record(&steps, Some(TRAJECTORY), step).map_err(|error| failed(error.to_string()))?;
         let (mut lines, mut samples) = (Vec::new(), Vec::new());
         for &tolerance in self.tolerances {
-            let case = Case::new(self.model, dt, tolerance);
+            let case = Case::new(self.model, dt, Some(tolerance), Precision::F64);
             let foretold: Vec<_> = METHODS.iter().map(|(_, method)| case.work(*method)).collect();
             let least = foretold.iter().flatten().copied().fold(f64::INFINITY, f64::min);
             let mut ms = Vec::new();

@@ -59,8 +59,8 @@ pub struct RunArgs {
     /// Time integration: euler
     #[arg(long, value_name = "NAME", default_value = "euler", help_heading = "Method")]
     pub integrator: String,
-    /// Linear solver: jacobi (block-Jacobi PCG), wide (the same in vector registers: cloths, nets, lattices), multigrid (PCG whose iterations hardly grow with the net), banded (LDLᵀ in the order of the particles: chains, ropes, thin nets) or ldl
-    /// (sparse LDLᵀ)
+    /// Linear solver: jacobi (block-Jacobi PCG), wide (the same in vector registers: cloths, nets, lattices), multigrid (PCG whose iterations hardly grow with the net), banded (LDLᵀ in the order of the particles: chains, ropes, thin nets), ldl
+    /// (sparse LDLᵀ) or auto (the one of least work for this scene, step and tolerance; says which and why)
     #[arg(long, value_name = "NAME", default_value = "jacobi", help_heading = "Method")]
     pub solver: String,
     /// Relative tolerance of a solve: stop at β ≤ R²β₀ [default: 1e-6 in f64, 1e-4 in f32]

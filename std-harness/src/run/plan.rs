@@ -8,6 +8,7 @@ use crate::cli::{Precision, Renumber, RunArgs};
 use crate::error::InputError;
 use crate::nearest;
 use crate::output::safe;
+use crate::run::auto;
 use crate::run::recorder::FILES;
 use crate::run::solver::{METHODS, Method, in_lanes};
 use crate::scene::renumber::Numbering;
@@ -35,6 +36,8 @@ pub struct Plan {
     pub max_iterations: Option<u32>,
     /// How the linear systems are solved.
     pub method: Method,
+    /// Why, if it was left to the program.
+    pub reason: Option<String>,
     /// Precision.
     pub precision: Precision,
     /// Folder for frames, plot and picture.
@@ -82,7 +85,8 @@ impl Plan {
     /// Decides a run from its options.
     pub fn new(args: &RunArgs) -> Result<Self, InputError> {
         known("integrator", &args.integrator, &["euler"])?;
-        let solver = known("solver", &args.solver, &METHODS.map(|(name, _)| name))?;
+        let solvers: Vec<&str> = METHODS.iter().map(|(name, _)| *name).chain(["auto"]).collect();
+        let solver = known("solver", &args.solver, &solvers)?;
         let loaded = source::load(args.scene.as_deref().unwrap_or("curtain"))?;
         let (mut model, wanted, inputs) = (loaded.model, loaded.outputs, loaded.files);
         override_model(&mut model, args)?;
@@ -120,7 +124,7 @@ impl Plan {
             (args.final_csv.clone().or(wanted.final_csv), args.json.clone().or(wanted.json));
         let only_files = final_csv.is_some() || json.is_some();
         let out = args.out.clone().or(wanted.dir).or_else(|| (!only_files).then(|| PathBuf::from("out")));
-        Ok(Self {
+        let mut plan = Self {
             model,
             numbering,
             dt,
@@ -128,7 +132,8 @@ impl Plan {
             tolerance,
             absolute,
             max_iterations: args.max_iterations,
-            method: METHODS[solver].1,
+            method: METHODS.get(solver).map_or(Method::Jacobi, |(_, method)| *method),
+            reason: None,
             precision: args.precision,
             out,
             fps,
@@ -136,7 +141,12 @@ impl Plan {
             json,
             inputs,
             quiet: args.quiet,
-        })
+        };
+        if solver == METHODS.len() {
+            let choice = auto::choose(&plan.ordered(), dt, plan.tolerance, plan.precision);
+            (plan.method, plan.reason) = (choice.method, Some(choice.reason));
+        }
+        Ok(plan)
     }
 
     /// The scene in the order that the kernel gets it.

@@ -34,6 +34,13 @@ pub const METHODS: [(&str, Method); 5] = [
     ("ldl", Method::Ldl),
 ];
 
+impl Method {
+    /// What `--solver` calls it.
+    pub fn name(self) -> &'static str {
+        METHODS.iter().find(|(_, method)| *method == self).map_or("", |(name, _)| name)
+    }
+}
+
 impl fmt::Display for Method {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
