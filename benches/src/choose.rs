@@ -12,6 +12,7 @@ use hooke_harness::run::auto::Case;
 use hooke_harness::run::plan::Plan;
 use hooke_harness::run::solver::{AnySolver, METHODS, Method};
 use hooke_harness::scene::Model;
+use hooke_harness::scene::renumber::Numbering;
 use indicatif::ProgressBar;
 use serde::Serialize;
 
@@ -22,8 +23,9 @@ use crate::scenario::Scenario;
 use crate::weights::{self, Sample};
 use crate::{output, table};
 
-/// The grid, unless scenes, a step or tolerances are given.
-const SCENES: [&str; 13] = [
+/// The grid, unless scenes, a step or tolerances are given. A scene after a `~` gets its particles shuffled and then
+/// renumbered by rcm: an irregular mesh.
+const SCENES: [&str; 17] = [
     "cloth:8",
     "cloth:16",
     "cloth:32",
@@ -37,6 +39,10 @@ const SCENES: [&str; 13] = [
     "lattice:4x4x4",
     "lattice:8x8x8",
     "lattice:16x16x16",
+    "~cloth:16",
+    "~cloth:48",
+    "~lattice:5x5x5",
+    "~lattice:9x9x9",
 ];
 const STEPS: [f64; 2] = [1e-3, 1.0 / 60.0];
 const TOLERANCES: [f64; 3] = [1e-3, 1e-6, 1e-10];
@@ -147,7 +153,10 @@ pub(crate) fn choose(args: &Args) -> Result<String, Wrong> {
     let states = args.states.unwrap_or(STATES);
     let mut plans: Vec<Plan> = Vec::new();
     for name in names {
-        let plan = args.plan(name)?;
+        let mut plan = args.plan(name.trim_start_matches('~'))?;
+        if name.starts_with('~') {
+            plan.model = irregular(&plan.model, name);
+        }
         let given = args.dt.map(|dt| [dt]);
         for dt in given.as_ref().map_or(STEPS.as_slice(), |dt| dt.as_slice()) {
             Scenario::<()>::steps(*dt, states).map_err(InputError::from)?;
@@ -170,6 +179,20 @@ pub(crate) fn choose(args: &Args) -> Result<String, Wrong> {
         output::json(file, &lines).map_err(Wrong::Failed)?;
     }
     Ok(text(&lines) + &weights::text(&samples))
+}
+
+/// The scene as if a mesh generator had numbered it and rcm had put that in order.
+fn irregular(model: &Model, name: &str) -> Model {
+    let mut order: Vec<usize> = (0..model.position.len()).collect();
+    let mut random = 1u64;
+    for k in (1..order.len()).rev() {
+        // Knuth's multiplier; the upper bits are the random ones.
+        random = random.wrapping_mul(6_364_136_223_846_793_005).wrapping_add(1);
+        order.swap(k, (random >> 33) as usize % (k + 1));
+    }
+    let mut shuffled = Numbering::new(model, order).model(model);
+    shuffled.name = name.into();
+    Numbering::reverse_cuthill_mckee(&shuffled).model(&shuffled)
 }
 
 fn text(lines: &[Line]) -> String {

@@ -36,8 +36,12 @@ fn fit<const N: usize>(points: &[([f64; N], f64)]) -> [f64; N] {
 /// The terms of a sample that [`fit`] weighs, if it is one of this method's.
 type Terms<const N: usize> = fn(&Sample) -> Option<[f64; N]>;
 
-fn fitted<const N: usize>(samples: &[Sample], method: Method, terms: Terms<N>) -> [f64; N] {
-    let own = samples.iter().filter(|sample| sample.method == method);
+fn fitted<'s, const N: usize>(
+    samples: impl IntoIterator<Item = &'s Sample>,
+    method: Method,
+    terms: Terms<N>,
+) -> [f64; N] {
+    let own = samples.into_iter().filter(|sample| sample.method == method);
     let points: Vec<_> = own.filter_map(|s| Some((terms(s)?, 1e6 * s.ms))).collect();
     fit(&points)
 }
@@ -61,8 +65,12 @@ fn rows(sample: &Sample) -> f64 {
 }
 
 /// Median over the samples of what a method's iterations are per halving and unit of difficulty.
-fn per_halving(samples: &[Sample], method: Method, difficulty: fn(f64) -> f64) -> f64 {
-    let own = samples.iter().filter(|s| s.method == method && s.case.halvings < 30.0);
+fn per_halving<'s>(
+    samples: impl IntoIterator<Item = &'s Sample>,
+    method: Method,
+    difficulty: fn(f64) -> f64,
+) -> f64 {
+    let own = samples.into_iter().filter(|s| s.method == method && s.case.halvings < 30.0);
     median(own.map(|s| {
         let all: f64 = s.case.islands.iter().map(|island| difficulty(Case::difficulty(island))).sum();
         s.iterations / (all * s.case.halvings)
@@ -84,15 +92,17 @@ pub(crate) fn text(samples: &[Sample]) -> String {
     });
     let list = |values: &[f64]| values.iter().map(|x| format!("{x:.2}")).collect::<Vec<_>>().join(", ");
     let mut text = String::from("\npub const WEIGHTS: Weights = Weights {\n");
-    // The root, and not a logarithm, is what the rule counts with.
-    let solvers: [(&str, Method, fn(f64) -> f64); 3] = [
-        ("jacobi", Method::Jacobi, |d| d),
-        ("wide", Method::Wide, |d| d),
-        ("multigrid", Method::Multigrid, f64::sqrt),
+    type Line = (&'static str, Method, fn(f64) -> f64, fn(&Sample) -> bool);
+    let solvers: [Line; 4] = [
+        ("jacobi", Method::Jacobi, |d| d, |_| true),
+        ("wide", Method::Wide, |d| d, |_| true),
+        ("multigrid", Method::Multigrid, f64::sqrt, |s| s.case.lanes),
+        ("loose", Method::Multigrid, f64::sqrt, |s| !s.case.lanes),
     ];
-    for (name, method, difficulty) in solvers {
-        let iterations = per_halving(samples, method, difficulty);
-        let [setup, iteration] = fitted(samples, method, iterative);
+    for (name, method, difficulty, which) in solvers {
+        let own = || samples.iter().filter(|s| which(s));
+        let iterations = per_halving(own(), method, difficulty);
+        let [setup, iteration] = fitted(own(), method, iterative);
         text += &format!(
             "    {name}: Iterative {{ iterations: {iterations:.3}, setup: {setup:.2}, iteration: {iteration:.2} }},\n"
         );

@@ -43,8 +43,10 @@ pub struct Weights {
     pub jacobi: Iterative,
     /// Lanes: the same iterations, but for rounding.
     pub wide: Iterative,
-    /// Multigrid.
+    /// Multigrid on a scene with lanes, whose levels are read in order.
     pub multigrid: Iterative,
+    /// Multigrid on any other.
+    pub loose: Iterative,
     /// ns per row of a chain that is eliminated from both ends.
     pub chain: f64,
     /// A wider band: ns per row, and per block product of the factorisation (w² of them a row).
@@ -59,6 +61,7 @@ pub const WEIGHTS: Weights = Weights {
     jacobi: Iterative { iterations: 0.323, setup: 41.78, iteration: 5.21 },
     wide: Iterative { iterations: 0.323, setup: 45.97, iteration: 2.46 },
     multigrid: Iterative { iterations: 0.186, setup: 64.18, iteration: 12.38 },
+    loose: Iterative { iterations: 0.2, setup: 80.0, iteration: 25.0 },
     chain: 88.7,
     band: [261.76, 1.97],
     ldl: [81.98, 0.00, 4.43],
@@ -124,7 +127,10 @@ impl Case {
             Method::Jacobi => Ok(iterate(&w.jacobi, Self::difficulty)),
             Method::Wide if !self.lanes => Err("its springs join particles at too many distances"),
             Method::Wide => Ok(iterate(&w.wide, Self::difficulty)),
-            Method::Multigrid => Ok(iterate(&w.multigrid, |island| Self::difficulty(island).sqrt())),
+            Method::Multigrid => {
+                let w = if self.lanes { &w.multigrid } else { &w.loose };
+                Ok(iterate(w, |island| Self::difficulty(island).sqrt()))
+            }
             Method::Banded => {
                 let bytes = |island: &Island| 72.0 * island.rows as f64 * island.half_bandwidth as f64;
                 if self.islands.iter().any(|island| bytes(island) > MOST_BYTES) {
@@ -189,5 +195,86 @@ pub fn choose(model: &Model, dt: f64, tolerance: Option<f64>, precision: Precisi
             "least work foretold (µs a step, on the machine it was weighed on): {}{unable}",
             work.join(", ")
         ),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::scene::catalog;
+
+    fn chosen(scene: &str, dt: f64, tolerance: f64) -> Choice {
+        let model = catalog::named(scene).unwrap().unwrap();
+        choose(&model, dt, Some(tolerance), Precision::F64)
+    }
+
+    #[test]
+    fn the_reference_scenes_get_what_the_grid_says() {
+        let table = [
+            ("cloth:16", 0.001, ["?", "?", "?"]),
+            ("cloth:16", 1.0 / 60.0, ["?", "?", "?"]),
+            ("cloth:32", 0.001, ["?", "?", "?"]),
+            ("cloth:32", 1.0 / 60.0, ["?", "?", "?"]),
+            ("cloth:64", 0.001, ["?", "?", "?"]),
+            ("cloth:64", 1.0 / 60.0, ["?", "?", "?"]),
+            ("cloth:128", 0.001, ["?", "?", "?"]),
+            ("cloth:128", 1.0 / 60.0, ["?", "?", "?"]),
+            ("net:32", 0.001, ["?", "?", "?"]),
+            ("net:32", 1.0 / 60.0, ["?", "?", "?"]),
+            ("syrup:32", 0.001, ["?", "?", "?"]),
+            ("syrup:32", 1.0 / 60.0, ["?", "?", "?"]),
+            ("curtain", 0.001, ["?", "?", "?"]),
+            ("curtain", 1.0 / 60.0, ["?", "?", "?"]),
+            ("chain:40", 0.001, ["?", "?", "?"]),
+            ("chain:40", 1.0 / 60.0, ["?", "?", "?"]),
+            ("chain:1000", 0.001, ["?", "?", "?"]),
+            ("chain:1000", 1.0 / 60.0, ["?", "?", "?"]),
+            ("lattice:8x8x8", 0.001, ["?", "?", "?"]),
+            ("lattice:8x8x8", 1.0 / 60.0, ["?", "?", "?"]),
+            ("spring", 0.001, ["?", "?", "?"]),
+            ("spring", 1.0 / 60.0, ["?", "?", "?"]),
+            ("pair", 0.001, ["?", "?", "?"]),
+            ("pair", 1.0 / 60.0, ["?", "?", "?"]),
+        ];
+        let wrong: Vec<String> = table
+            .iter()
+            .flat_map(|(scene, dt, names)| {
+                let found = [1e-3, 1e-6, 1e-10].map(|r| chosen(scene, *dt, r).method.name());
+                (found != *names).then(|| format!("(\"{scene}\", {dt}, {found:?}),"))
+            })
+            .collect();
+        assert!(wrong.is_empty(), "{}", wrong.join("\n"));
+    }
+
+    #[test]
+    fn the_same_question_has_the_same_answer() {
+        for scene in ["cloth:20", "curtain", "chain:50", "lattice:4x4x4"] {
+            assert_eq!(chosen(scene, 0.01, 1e-7), chosen(scene, 0.01, 1e-7));
+        }
+    }
+
+    #[test]
+    fn what_a_solver_cannot_do_is_said() {
+        let mut model = Model::at_rest("", (0..60).map(|i| [i as f64, 0.0, 0.0]).collect(), 1.0);
+        for i in 0..60 {
+            for j in [7 * i % 60, 11 * i % 60].into_iter().filter(|j| *j != i) {
+                model.join(i, j, 1.0);
+            }
+        }
+        let choice = choose(&model, 0.01, None, Precision::F64);
+        assert!(
+            choice.reason.ends_with("; wide cannot: its springs join particles at too many distances"),
+            "{}",
+            choice.reason
+        );
+        assert_ne!(choice.method, Method::Wide);
+        let case = Case { fill: None, ..Case::new(&model, 0.01, None, Precision::F64) };
+        assert!(case.work(Method::Ldl).is_err() && case.work(Method::Jacobi).is_ok());
+    }
+
+    #[test]
+    fn halvings_are_counted_by_the_exponent_and_end_where_rounding_does() {
+        assert_eq!([1.0, 0.5, 0.25, 1e-3, 1e-6].map(|r| halvings(r, 44.0)), [0.0, 1.0, 2.0, 10.0, 20.0]);
+        assert_eq!([0.0, 1e-300, f64::MIN_POSITIVE, 7.0].map(|r| halvings(r, 44.0)), [44.0, 44.0, 44.0, 0.0]);
     }
 }

@@ -50,6 +50,11 @@ impl Numbering {
             particle[from..].reverse();
         }
         particle.extend((0..model.pinned.len()).filter(|i| model.pinned[*i]));
+        Self::new(model, particle)
+    }
+
+    /// That order of the particles, each named once, and springs sorted by it.
+    pub fn new(model: &Model, particle: Vec<usize>) -> Self {
         let number = inverse(&particle);
         let mut spring: Vec<usize> = (0..model.springs.len()).collect();
         spring.sort_by_key(|j| {
@@ -120,10 +125,7 @@ mod tests {
         let n = model.position.len();
         // Any unit of ℤ/n will do.
         let factor = (n / 2..n).find(|f| (2..=*f).all(|d| f % d != 0 || n % d != 0)).unwrap();
-        let particle: Vec<usize> = (0..n).map(|i| i * factor % n).collect();
-        let s = model.springs.len();
-        let spring: Vec<usize> = (0..s).rev().collect();
-        Numbering { number: inverse(&particle), particle, place: inverse(&spring), spring }.model(model)
+        Numbering::new(model, (0..n).map(|i| i * factor % n).collect()).model(model)
     }
 
     fn named(name: &str) -> Model {
