@@ -5,8 +5,10 @@
 //! they get free: many short steps in one scene do not make the others wait.
 //!
 //! Cost: starting the threads, some 10 µs each, once a call, and a lock per scene; so give it many steps at a time rather
-//! than one. Memory: nothing beyond the scenes and an answer each. (Inside one scene threads do not pay: a product is
-//! shorter than two threads take to wait for each other twice. See `benches/README.md`.)
+//! than one. Memory: nothing beyond the scenes and an answer each.
+//!
+//! Islands of one scene (ropes without a common free particle) may as well be scenes of their own: the kernel promises
+//! them the same bits. Inside an island threads do not pay; `benches/README.md` says why.
 
 use std::sync::Mutex;
 use std::thread;

@@ -5,6 +5,10 @@
 //! are no unknowns, come last. Springs are sorted as the kernel's rows read them: by their lower end, then by the other.
 //! Another numbering is another ordered scene, with other last bits; so it is the harness's choice, and recorded.
 //!
+//! It pays where a mesh's points come in no order and do not fit the cache; compare both with
+//! `cargo run --release -p hooke-benches --bin compare -- --choose FILE -- --renumber rcm`. A grid's own numbering, whose
+//! springs have few distances, is better kept: [`crate::run::plan::Plan`] keeps it.
+//!
 //! Cost: O(particles + springs·log) once. (The ordering of `sprs` looks for every island's start from particle 0 on, which
 //! is quadratic in a scene of many ropes.)
 //!
