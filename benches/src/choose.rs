@@ -6,7 +6,6 @@
 use cpu_time::ThreadTime;
 use hooke::Force;
 use hooke_harness::cli::Precision;
-use hooke_harness::error::InputError;
 use hooke_harness::output::safe;
 use hooke_harness::run::auto::Case;
 use hooke_harness::run::plan::Plan;
@@ -159,7 +158,7 @@ pub(crate) fn choose(args: &Args) -> Result<String, Wrong> {
         }
         let given = args.dt.map(|dt| [dt]);
         for dt in given.as_ref().map_or(STEPS.as_slice(), |dt| dt.as_slice()) {
-            Scenario::<()>::steps(*dt, states).map_err(InputError::from)?;
+            Scenario::<()>::steps(*dt, states)?;
             plans.push(Plan { dt: *dt, ..plan.clone() });
         }
     }

@@ -128,7 +128,8 @@ mod tests {
     fn shuffled(model: &Model) -> Model {
         let n = model.position.len();
         // Any unit of ℤ/n will do.
-        let factor = (n / 2..n).find(|f| (2..=*f).all(|d| f % d != 0 || n % d != 0)).unwrap();
+        let factor =
+            (n / 2..n).find(|f| (2..=*f).all(|d| !f.is_multiple_of(d) || !n.is_multiple_of(d))).unwrap();
         Numbering::new(model, (0..n).map(|i| i * factor % n).collect()).model(model)
     }
 
