@@ -24,16 +24,18 @@ use crate::parts::{IslandParts, Parts};
 use crate::pins::Motion;
 use crate::real::Real;
 use crate::report::{IslandReport, Report};
+use crate::sleeping::{Awake, Found, Sleep};
 use crate::solver::{BlockJacobi, Problem, Solver, Stop};
 use crate::system::System;
 use crate::vec3::{self, Vec3};
 
 /// (M + hD − h²K̃)q̇⁺ = Mq̇ + hf, q⁺ = q + hq̇⁺, with the forces `F` besides the springs'.
 #[derive(Debug, Clone, Copy)]
-pub struct LinearlyImplicitEuler<T, F = (), S = BlockJacobi> {
+pub struct LinearlyImplicitEuler<T, F = (), S = BlockJacobi, Z = Awake> {
     dt: T,
     stop: Stop<T>,
     solver: S,
+    sleep: Z,
     /// The forces besides the springs' own; change their values between steps here. The last one added is `.1`, the
     /// one before it `.0.1`, and so on.
     pub forces: F,
@@ -43,25 +45,31 @@ impl<T: Real> LinearlyImplicitEuler<T> {
     /// A step of `dt` seconds with the default stopping rule and no forces but the springs'. The values are checked at
     /// each step.
     pub const fn new(dt: T) -> Self {
-        Self { dt, stop: Stop::new(), solver: BlockJacobi, forces: () }
+        Self { dt, stop: Stop::new(), solver: BlockJacobi, sleep: Awake, forces: () }
     }
 }
 
-impl<T: Real, F, S> LinearlyImplicitEuler<T, F, S> {
+impl<T: Real, F, S, Z> LinearlyImplicitEuler<T, F, S, Z> {
     /// Adds a force.
-    pub fn with<G>(self, force: G) -> LinearlyImplicitEuler<T, (F, G), S> {
-        let Self { dt, stop, solver, forces } = self;
-        LinearlyImplicitEuler { dt, stop, solver, forces: (forces, force) }
+    pub fn with<G>(self, force: G) -> LinearlyImplicitEuler<T, (F, G), S, Z> {
+        let Self { dt, stop, solver, sleep, forces } = self;
+        LinearlyImplicitEuler { dt, stop, solver, sleep, forces: (forces, force) }
     }
 
     /// Solves by another method; [`BlockJacobi`] unless said.
-    pub fn solver<R: Solver<T>>(self, solver: R) -> LinearlyImplicitEuler<T, F, R> {
-        let Self { dt, stop, forces, .. } = self;
-        LinearlyImplicitEuler { dt, stop, solver, forces }
+    pub fn solver<R: Solver<T>>(self, solver: R) -> LinearlyImplicitEuler<T, F, R, Z> {
+        let Self { dt, stop, sleep, forces, .. } = self;
+        LinearlyImplicitEuler { dt, stop, solver, sleep, forces }
+    }
+
+    /// Brings islands to rest, and with [`crate::Sleeping`] skips those that stay there; [`Awake`] unless said.
+    pub fn sleeping<R: Sleep<T>>(self, sleep: R) -> LinearlyImplicitEuler<T, F, S, R> {
+        let Self { dt, stop, solver, forces, .. } = self;
+        LinearlyImplicitEuler { dt, stop, solver, sleep, forces }
     }
 
     /// Adds gravity, m/s².
-    pub fn gravity(self, g: Vec3<T>) -> LinearlyImplicitEuler<T, (F, Gravity<T>), S> {
+    pub fn gravity(self, g: Vec3<T>) -> LinearlyImplicitEuler<T, (F, Gravity<T>), S, Z> {
         self.with(Gravity(g))
     }
 
@@ -89,7 +97,7 @@ impl<T: Real, F, S> LinearlyImplicitEuler<T, F, S> {
     }
 }
 
-impl<T: Real, F: Force<T>, S> LinearlyImplicitEuler<T, F, S> {
+impl<T: Real, F: Force<T>, S, Z> LinearlyImplicitEuler<T, F, S, Z> {
     /// Refuses what no step can be made with, writes the pins' velocities over this step behind the unknowns, and asks
     /// the forces.
     fn begin<M: Memory<Real = T>>(
@@ -152,7 +160,7 @@ impl<T: Real, F: Force<T>, S> LinearlyImplicitEuler<T, F, S> {
     }
 }
 
-impl<T: Real, F: Force<T>, S: Solver<T>> Integrator<T> for LinearlyImplicitEuler<T, F, S> {
+impl<T: Real, F: Force<T>, S: Solver<T>, Z: Sleep<T>> Integrator<T> for LinearlyImplicitEuler<T, F, S, Z> {
     fn advance<M: Memory<Real = T>>(
         &mut self,
         mut parts: Parts<'_, M>,
@@ -160,16 +168,27 @@ impl<T: Real, F: Force<T>, S: Solver<T>> Integrator<T> for LinearlyImplicitEuler
         watch: &mut impl FnMut(&IslandReport<T>),
     ) -> Result<Report<T>, StepError> {
         let scaling = self.begin(&mut parts, motion)?;
+        self.sleep.begin(&parts, self.dt, self.stop.absolute)?;
+        self.solver.begin();
         let Parts { network, islands, work } = parts;
         let state = network.state();
         let mut report = Report::new(state.springs() - islands.edges);
         for k in 0..islands.count {
             let mut island = islands.island(k, work, &state);
+            if let Some(asleep) = self.sleep.asleep(&mut island, &self.forces) {
+                report.add(&asleep);
+                watch(&asleep);
+                continue;
+            }
             let Assembled { clamped, certified, points, free } =
                 assemble::<T, F, M::Law>(&mut island, &mut self.forces, self.dt, scaling)?;
             let IslandParts { matrix, vectors, block, .. } = &mut island;
             let system = System { matrix, forces: &self.forces, points };
-            let solve = self.solver.solve(Problem { system, vectors, block, free }, &self.stop)?;
+            let found = Found { clamped, certified };
+            let solve = match self.sleep.rest(&system, vectors, self.stop.absolute, found) {
+                Some(solve) => solve,
+                None => self.solver.solve(Problem { system, vectors, block, free }, &self.stop)?,
+            };
             let first_particle = matrix.rows.particle.first().map_or(0, |i| *i as usize);
             if !solve.upper.is_finite() {
                 return Err(StepError::NotFinite(first_particle));
@@ -179,6 +198,7 @@ impl<T: Real, F: Force<T>, S: Solver<T>> Integrator<T> for LinearlyImplicitEuler
                 particles: matrix.rows.particle.len(),
                 clamped,
                 certified,
+                asleep: false,
                 solve,
             };
             report.add(&island);

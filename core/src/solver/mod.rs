@@ -40,6 +40,10 @@ pub struct Problem<'p, 'a, T, F> {
 
 /// A method for A x = b.
 pub trait Solver<T: Real> {
+    /// A step begins, whose islands are about to come in their order; those that need no solve do not.
+    #[inline(always)]
+    fn begin(&mut self) {}
+
     /// Solves one island's system until `stop` says enough, and certifies the answer.
     ///
     /// # Errors
@@ -53,6 +57,11 @@ pub trait Solver<T: Real> {
 
 /// A solver that outlives the integrator which uses it: what it keeps between steps stays with it.
 impl<T: Real, S: Solver<T>> Solver<T> for &mut S {
+    #[inline]
+    fn begin(&mut self) {
+        (**self).begin();
+    }
+
     fn solve<F: Force<T>>(
         &mut self,
         problem: Problem<'_, '_, T, F>,
