@@ -66,12 +66,16 @@ pub struct RunArgs {
     /// Relative tolerance of a solve: stop at β ≤ R²β₀ [default: 1e-6 in f64, 1e-4 in f32]
     #[arg(long, value_name = "R", allow_negative_numbers = true, help_heading = "Method")]
     pub tolerance: Option<f64>,
-    /// Absolute tolerance of a solve: stop at β ≤ J joules [default: 0]
+    /// Absolute tolerance of a solve: stop at β ≤ J joules [default: 0, or the J of --sleep]
     #[arg(long, value_name = "J", allow_negative_numbers = true, help_heading = "Method")]
     pub absolute: Option<f64>,
     /// At most so many iterations per island and step [default: 10000]
     #[arg(long, value_name = "N", help_heading = "Method")]
     pub max_iterations: Option<u32>,
+    /// Let islands sleep: one that has at most J joules of kinetic energy, and would gain no more than --absolute from rest,
+    /// is stopped (this changes the trajectory) and skipped until something changes [default: off]
+    #[arg(long, value_name = "J", allow_negative_numbers = true, help_heading = "Method")]
+    pub sleep: Option<f64>,
     /// Precision of the simulation
     #[arg(long, value_enum, default_value_t = Precision::F64, help_heading = "Method")]
     pub precision: Precision,

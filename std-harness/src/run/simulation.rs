@@ -6,8 +6,8 @@ use std::path::Path;
 
 use hooke::force::Coefficients;
 use hooke::{
-    Drag, Force, Gravity, LinearlyImplicitEuler, MassSpring, Motion, Real, Report, SceneIn, SpringDamping,
-    StepError,
+    Drag, Force, Gravity, LinearlyImplicitEuler, MassSpring, Motion, Real, Report, SceneIn, Sleeping,
+    SpringDamping, StepError,
 };
 
 use super::plan::Plan;
@@ -36,8 +36,9 @@ type Forces<T> = ((((), Gravity<T>), Drag<T>), SpringDamping<Dampings<T>>);
 pub struct Simulation<T: Real> {
     /// The kernel's scene.
     pub scene: MassSpring<Heap<T>>,
-    euler: LinearlyImplicitEuler<T, Forces<T>, AnySolver<T>>,
-    solver_bytes: usize,
+    euler: LinearlyImplicitEuler<T, Forces<T>, AnySolver<T>, Option<Sleeping<T, Vec<T>, Vec<u32>>>>,
+    /// Of the solver's own scratch and of what sleeping remembers
+    scratch_bytes: usize,
     moving: Vec<Moving>,
     /// Where the moving pins were at t = 0.
     origin: Vec<[f64; 3]>,
@@ -64,6 +65,7 @@ fn in_range<T: Real>(plan: &Plan) -> Result<(), InputError> {
         ("--gravity", z),
         ("--tolerance", tolerance),
         ("--absolute", plan.absolute),
+        ("--sleep", plan.sleep.unwrap_or(0.0)),
         ("drag", plan.model.drag),
     ] {
         if !T::from_f64(value).is_finite() {
@@ -98,8 +100,14 @@ impl<T: Real + Display> Simulation<T> {
         }
         let mut scene = model.build::<T>()?;
         let solver = AnySolver::new(plan.method, &mut scene, model);
-        let solver_bytes = solver.bytes();
-        let euler = euler.solver(solver);
+        let (numbers, words) = match plan.sleep {
+            Some(_) => Sleeping::needs(model.mass.len(), model.springs.len()),
+            None => (0, 0),
+        };
+        let scratch_bytes = solver.bytes() + numbers * size_of::<T>() + words * size_of::<u32>();
+        let sleeping =
+            plan.sleep.map(|joules| Sleeping::new(real(joules), vec![T::ZERO; numbers], vec![0; words]));
+        let euler = euler.solver(solver).sleeping(sleeping);
         // What would fail at the first step fails now, before anything is written.
         euler
             .forces
@@ -109,7 +117,7 @@ impl<T: Real + Display> Simulation<T> {
         Ok(Self {
             scene,
             euler,
-            solver_bytes,
+            scratch_bytes,
             moving: model.moving.clone(),
             origin,
             motion: Vec::new(),
@@ -152,10 +160,11 @@ impl<T: Real + Display> Simulation<T> {
         speeds.fold((0, 0.0), |best, now| if now.1 > best.1 { now } else { best })
     }
 
-    /// Bytes of the scene's lists (state, islands and the solver's vectors) and of the solver's own scratch.
+    /// Bytes of the scene's lists (state, islands and the solver's vectors), of the solver's own scratch, and of what
+    /// sleeping remembers.
     pub fn workspace_bytes(&self) -> usize {
         let (reals, words) = SceneIn::<T>::needs(self.scene.positions().len(), self.scene.state().springs());
-        reals * size_of::<T>() + words * size_of::<u32>() + self.solver_bytes
+        reals * size_of::<T>() + words * size_of::<u32>() + self.scratch_bytes
     }
 
     /// Writes the final CSV in this precision's own shortest decimals.
