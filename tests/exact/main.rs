@@ -26,6 +26,7 @@ mod pins;
 mod rest;
 mod same_bits;
 mod scalings;
+mod sleeping;
 mod snapshots;
 mod stiffness;
 mod wide;
