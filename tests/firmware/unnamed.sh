@@ -1,7 +1,7 @@
 # shellcheck shell=bash
 # A feature that a program does not name costs it nothing: the minimal program is the same, byte for byte, when core has
 # no trace of drag, spring damping, point forces, point springs, cables, snapshots, reactions, energies, momenta, the
-# stiffness matrix, and the direct solvers; and the same functions without any solver but its own. Sourced by check.sh.
+# stiffness matrix, sleeping, and the direct solvers; and the same functions without any solver but its own. Sourced by check.sh.
 
 # Takes the features out of a copy of core's sources.
 without_features() {
@@ -15,6 +15,9 @@ without_features() {
     sed -i -E '/^(pub )?(mod|use) (banded_ldl|chain|direct|elimination|panel|pivot|sparse_ldl|supernodes)\b/d' \
         "$source/solver/mod.rs"
     sed -i -E 's/^(pub use solver::).*$/\1{BlockJacobi, Jacobi, Multigrid, Preconditioner, Solver, Stop};/' "$source/lib.rs"
+    rm "$source"/sleeping/{rest,asleep}.rs
+    sed -i -E '/^(pub )?(mod|use) (rest|asleep)\b/d' "$source/sleeping/mod.rs"
+    sed -i -E 's/^(pub use sleeping::).*$/\1{Awake, Sleep};/' "$source/lib.rs"
     # Comments too: what they belong to is gone.
     sed -i -E '/^ *\/\/\//d; /^use crate::energy/d; /^    pub fn (springs|reaction)\b/,/^    }/d' "$source/scene.rs"
     sed -i -E '/^impl<M: Memory<Law = Mixed>>/,/^}/d; /^use crate::law::Mixed/d' "$source/edit.rs"

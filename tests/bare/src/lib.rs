@@ -15,6 +15,7 @@ mod forces;
 mod integrator;
 mod measuring;
 mod multigrid;
+mod sleeping;
 mod snapshots;
 mod stepping;
 mod system;
