@@ -28,7 +28,7 @@ fn run<M: Memory>(scene: &mut MassSpring<M>, trace: &mut Trace<'_>) -> Outcome {
             scene.impulse(2, vector(0.0, 0.0, 0.01))?;
         }
         let mut seen = [false; 2];
-        for step in 0..96 {
+        for step in 0..72 {
             let report = scene.step(&mut euler)?;
             trace.step(scene, &report)?;
             expect(!push || step > 0 || report.asleep == 1, "one that wakes, and one that does not")?;
