@@ -78,10 +78,14 @@ impl<T: Real, N, W> Sleeping<T, N, W> {
 /// Remembers `now`; answers whether it was that already. (A NaN is never what it was.)
 #[inline(always)]
 fn remember<X: PartialEq>(place: Option<&mut X>, now: X) -> bool {
-    let Some(place) = place else { return false };
-    let same = *place == now;
-    *place = now;
-    same
+    match place {
+        Some(place) if *place == now => true,
+        Some(place) => {
+            *place = now;
+            false
+        }
+        None => false,
+    }
 }
 
 impl<T: Real, N: AsMut<[T]>, W: AsMut<[u32]>> Sleeping<T, N, W> {
