@@ -31,12 +31,13 @@ impl<T: Real> Coefficients<T> for Dampings<T> {
 }
 
 type Forces<T> = ((((), Gravity<T>), Drag<T>), SpringDamping<Dampings<T>>);
+type MaybeSleeping<T> = Option<Sleeping<T, Vec<T>, Vec<u32>>>;
 
 /// A running simulation in precision `T`.
 pub struct Simulation<T: Real> {
     /// The kernel's scene.
     pub scene: MassSpring<Heap<T>>,
-    euler: LinearlyImplicitEuler<T, Forces<T>, AnySolver<T>, Option<Sleeping<T, Vec<T>, Vec<u32>>>>,
+    euler: LinearlyImplicitEuler<T, Forces<T>, AnySolver<T>, MaybeSleeping<T>>,
     /// Of the solver's own scratch and of what sleeping remembers
     scratch_bytes: usize,
     moving: Vec<Moving>,
