@@ -380,33 +380,63 @@ fn a_memory_taken_to_another_scene_of_the_same_pattern_is_of_no_use_there() {
     assert_eq!(alike(&mut a, DT, JOULES, &[]), 0);
 }
 
+/// One change of a kind, to be made in both scenes alike; what is refused in one is refused in the other.
+fn change(
+    scene: &mut VecScene<f64>,
+    kind: usize,
+    i: usize,
+    j: usize,
+    x: f64,
+    kept: &Snapshot<VecMemory<f64>>,
+) {
+    let data = hanging();
+    let at = scene.positions()[i];
+    _ = match kind {
+        0 => scene.set_mass(i, x),
+        1 => scene.set_stiffness(j, 1e3 * x),
+        2 => scene.set_rest_length(j, 0.4 * x),
+        3 => scene.impulse(i, [0.0, 0.0, 1e-3 * x]),
+        4 => scene.break_spring(j),
+        5 => scene.pin(i),
+        6 => scene.release(i),
+        7 => scene.set_position(i, at.map(|q| q + 1e-6 * x)),
+        8 => scene.set_velocity(i, [0.0; 3]),
+        9 => scene.restore(kept),
+        10 if scene.positions().len() < data.len() + 4 => scene.particle([x, 1.0, 0.0], x).map(|_| ()),
+        11 if scene.state().springs() < data.springs.len() + 4 => scene.spring(i, 12, 100.0 * x).map(|_| ()),
+        12 => {
+            scene.step(&mut LinearlyImplicitEuler::new(DT)).unwrap();
+            Ok(())
+        }
+        _ => Ok(()),
+    };
+}
+
 #[test]
 fn random_changes_of_a_scene_that_sleeps_are_never_missed() {
     let mut random = Random::new(Random::seed(5));
     let mut a = asleep();
-    let mut skipped = 0;
-    for _ in 0..60 {
+    let (mut skipped, mut kept) = (0, Snapshot::empty());
+    a.scene.save(&mut kept).unwrap();
+    for _ in 0..150 {
         let (i, j) = (random.below(a.scene.positions().len()), random.below(a.scene.state().springs()));
-        let (x, kind) = (random.between(0.5, 2.0), random.below(9));
+        let (x, kind) = (random.between(0.5, 2.0), random.below(24));
         for scene in [&mut a.scene, &mut a.awake] {
-            // What is refused (a velocity for a pin, a spring that is broken already) is refused by both.
-            _ = match kind {
-                0 => scene.set_mass(i, x),
-                1 => scene.set_stiffness(j, 1e3 * x),
-                2 => scene.set_rest_length(j, 0.4 * x),
-                3 => scene.impulse(i, [0.0, 0.0, 1e-3 * x]),
-                4 => scene.break_spring(j),
-                5 => scene.pin(i),
-                6 => scene.release(i),
-                _ => Ok(()),
-            };
+            change(scene, kind, i, j, x, &kept);
         }
-        if kind == 7 {
-            a.forces.1.force = [0.0, 0.0, x];
+        match kind {
+            13 => a.forces.1.force = [0.0, 0.0, x],
+            14 => a.forces.0.0.1.0 = 4.0 * x,
+            15 => a.scene.save(&mut kept).unwrap(),
+            _ => {}
         }
-        skipped += alike(&mut a, DT, JOULES, &[]);
+        let [q, y, z] = a.scene.positions()[i];
+        let motion = Motion { particle: i, position: [q + 1e-3 * x, y, z], velocity: [0.0; 3] };
+        let motion = if kind == 16 && a.scene.is_pinned(i) { &[motion][..] } else { &[] };
+        let dt = if kind == 17 { DT / 2.0 } else { DT };
+        skipped += alike(&mut a, dt, JOULES, motion);
     }
-    assert!(skipped > 20, "{skipped}");
+    assert!(skipped > 50, "{skipped}");
 }
 
 /// Counts the solves that it is asked for.

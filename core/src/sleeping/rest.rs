@@ -11,6 +11,7 @@
 //!
 //! It takes away at most J per island, and keeps no momentum. An island that no force holds where it is stays there if what
 //! it would gain in a step, ½ m g²h² for a falling one, is below the absolute tolerance: that says what counts as nothing.
+//! Give it a J not below that tolerance: what solves leave undone can keep an island above a much smaller one for good.
 //! With J = 0 it stops nothing that moves; with an absolute tolerance of 0, the default, nothing but what is in perfect
 //! balance.
 //!
