@@ -286,7 +286,7 @@ fn help_names_every_command_option_and_scene() {
 
 #[test]
 fn islands_sleep_where_they_are_told_to_and_the_figures_count_them() {
-    let options = "chain:5 --seconds 10 --absolute 1e-6";
+    let options = "chain:5 --dt 0.1 --seconds 30 --absolute 1e-6";
     let asleep = |f: &Value| [&f["asleep_islands"], &f["asleep_at_end"]].map(|n| n.as_u64().unwrap());
     let (off, on) = (figures(options), figures(&format!("{options} --sleep 1e-6")));
     assert_eq!(asleep(&off), [0, 0]);
@@ -294,7 +294,7 @@ fn islands_sleep_where_they_are_told_to_and_the_figures_count_them() {
     assert!(asleep(&on)[0] > 100 && on["iterations"].as_u64() < off["iterations"].as_u64(), "{on}");
     assert!(on["workspace_bytes"].as_u64() > off["workspace_bytes"].as_u64());
     let folder = Scratch::new();
-    let summary = folder.ok("run chain:5 --seconds 10 --sleep 1e-6 --json f.json").stdout;
+    let summary = folder.ok("run chain:5 --dt 0.1 --seconds 30 --sleep 1e-6 --json f.json").stdout;
     assert!(summary.contains("asleep, 1 island at the end"), "{summary}");
 }
 
