@@ -29,4 +29,5 @@ mod scalings;
 mod sleeping;
 mod snapshots;
 mod stiffness;
+mod waking;
 mod wide;

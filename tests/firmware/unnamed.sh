@@ -15,8 +15,8 @@ without_features() {
     sed -i -E '/^(pub )?(mod|use) (banded_ldl|chain|direct|elimination|panel|pivot|sparse_ldl|supernodes)\b/d' \
         "$source/solver/mod.rs"
     sed -i -E 's/^(pub use solver::).*$/\1{BlockJacobi, Jacobi, Multigrid, Preconditioner, Solver, Stop};/' "$source/lib.rs"
-    rm "$source"/sleeping/{rest,asleep}.rs
-    sed -i -E '/^(pub )?(mod|use) (rest|asleep)\b/d' "$source/sleeping/mod.rs"
+    rm "$source"/sleeping/{asleep,pattern,rest}.rs
+    sed -i -E '/^(pub )?(mod|use) (asleep|pattern|rest)\b/d' "$source/sleeping/mod.rs"
     sed -i -E 's/^(pub use sleeping::).*$/\1{Awake, Sleep};/' "$source/lib.rs"
     # Comments too: what they belong to is gone.
     sed -i -E '/^ *\/\/\//d; /^use crate::energy/d; /^    pub fn (springs|reaction)\b/,/^    }/d' "$source/scene.rs"

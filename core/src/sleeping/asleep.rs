@@ -13,17 +13,16 @@
 //! up to its first moving particle; of all, one word per particle and spring for the pattern.
 //! Memory: 6 numbers per particle and spring, 2 words per particle and 1 per spring.
 
+use super::pattern::{self, remember};
 use super::{Found, Rest, steps};
 use crate::error::StepError;
 use crate::force::Force;
-use crate::islands::{Island, Islands};
-use crate::law::Law;
-use crate::memory::{Memory, part, part_mut};
+use crate::islands::Islands;
+use crate::memory::{Memory, part_mut};
 use crate::network::State;
 use crate::parts::{IslandParts, Parts, Vectors};
 use crate::real::Real;
 use crate::report::{Ending, IslandReport, Solve};
-use crate::selection::{Ends, MARK};
 use crate::system::System;
 use crate::vec3;
 
@@ -75,19 +74,6 @@ impl<T: Real, N, W> Sleeping<T, N, W> {
     }
 }
 
-/// Remembers `now`; answers whether it was that already. (A NaN is never what it was.)
-#[inline(always)]
-fn remember<X: PartialEq>(place: Option<&mut X>, now: X) -> bool {
-    match place {
-        Some(place) if *place == now => true,
-        Some(place) => {
-            *place = now;
-            false
-        }
-        None => false,
-    }
-}
-
 impl<T: Real, N: AsMut<[T]>, W: AsMut<[u32]>> Sleeping<T, N, W> {
     /// What is remembered of each particle (M̃, h f, both bounds of its island's solve) and of each spring (Δx, k, l₀, c).
     fn records(&mut self) -> (&mut [[T; 6]], &mut [[T; 6]]) {
@@ -99,31 +85,16 @@ impl<T: Real, N: AsMut<[T]>, W: AsMut<[u32]>> Sleeping<T, N, W> {
         self.words.as_mut().get_mut(particle)
     }
 
-    /// Remembers the pattern of the whole scene; answers whether it is the one that was. A row's word says how many springs
-    /// it owns and whether an island begins there, a spring's where its other end is and whether it goes slack.
+    /// Remembers the pattern of the whole scene; answers whether it is the one that was.
     #[inline(never)]
     fn is_pattern<M: Memory<Real = T>>(&mut self, islands: &Islands<M>, state: &State<'_, T>) -> bool {
         let particles = state.mass.len();
-        let sizes = [particles, islands.free, islands.edges];
-        let mut same = remember(Some(&mut self.sizes), sizes);
+        let same = remember(Some(&mut self.sizes), [particles, islands.free, islands.edges]);
         let words = self.words.as_mut().get_mut(particles..).unwrap_or_default();
-        let Some((rows, springs)) = words.split_at_mut_checked(particles) else { return false };
-        for island in islands.islands() {
-            let island = Island::unpack(*island);
-            let mut begins = MARK;
-            let own = part(&islands.own, island.slots());
-            for (word, own) in part_mut(rows, island.slots()).iter_mut().zip(own) {
-                same &= remember(Some(word), *own | begins);
-                begins = 0;
-            }
-        }
-        for (word, (other, j)) in
-            springs.iter_mut().zip(islands.other.iter().zip(&*islands.spring)).take(islands.edges)
-        {
-            let cable = state.ends.get(*j as usize).is_some_and(|pair| Ends::unpack(*pair).cable);
-            same &= remember(Some(word), *other | if M::Law::slackens(cable) { MARK } else { 0 });
-        }
-        same
+        words
+            .split_at_mut_checked(particles)
+            .is_some_and(|words| pattern::is_as_before(words, islands, state))
+            && same
     }
 
     /// Remembers the numbers that an island's step from q̇ = 0 depends on; answers whether they are those that were, and

@@ -9,6 +9,7 @@
 //! `Option` of one is decided when the program runs; `&mut` of one outlives the method that uses it.
 
 mod asleep;
+mod pattern;
 mod rest;
 
 pub use asleep::Sleeping;
