@@ -1,6 +1,6 @@
 //! Waking: any change of what an island's step depends on wakes it, and none is missed.
 
-use hooke::{LinearlyImplicitEuler, Motion, Rest, Snapshot};
+use hooke::{LinearlyImplicitEuler, Mixed, Motion, Rest, Snapshot, Spring};
 use hooke_tests::build;
 use hooke_tests::random::Random;
 use hooke_tests::vec_memory::{VecMemory, VecScene};
@@ -231,6 +231,55 @@ fn a_memory_taken_to_another_scene_of_the_same_pattern_is_of_no_use_there() {
     let mut a = asleep();
     (a.scene, a.awake) = (build::scene(&hanging()), build::scene(&hanging()));
     assert_eq!(alike(&mut a, DT, JOULES, &[]), 0);
+}
+
+/// Springs, pins, and whether the springs are cables.
+type Pattern = (&'static [(usize, usize)], &'static [usize], bool);
+
+/// Three particles in one place, joined by springs of rest length 0: nothing but the pattern tells such scenes apart.
+fn in_one_place(springs: &[(usize, usize)], pinned: &[usize], cables: bool) -> VecScene<f64, Mixed> {
+    let mut scene = VecScene::empty();
+    for i in 0..3 {
+        scene.particle([0.0; 3], 1.0).unwrap();
+        if pinned.contains(&i) {
+            scene.pin(i).unwrap();
+        }
+    }
+    let spring = Spring { stiffness: 100.0, rest_length: 0.0 };
+    for (a, b) in springs {
+        if cables { scene.cable(*a, *b, spring) } else { scene.spring_with(*a, *b, spring) }.unwrap();
+    }
+    scene
+}
+
+#[test]
+fn scenes_that_differ_in_their_pattern_alone_are_told_apart() {
+    let scenes: [Pattern; 8] = [
+        (&[(0, 1), (1, 2)], &[], false),
+        (&[(0, 1), (1, 2)], &[], true),
+        (&[(0, 1), (0, 2)], &[], false),
+        (&[(0, 2), (1, 2)], &[], false),
+        (&[(0, 1), (0, 2)], &[2], false),
+        (&[(0, 1), (0, 2)], &[1, 2], false),
+        (&[(0, 1)], &[], false),
+        (&[(1, 2)], &[], false),
+    ];
+    for (i, a) in scenes.iter().enumerate() {
+        for (j, b) in scenes.iter().enumerate().filter(|(j, _)| *j != i) {
+            let mut euler = LinearlyImplicitEuler::new(DT).sleeping(memory(0.0, 3, 2));
+            let [mut a, mut b] =
+                [a, b].map(|(springs, pinned, cables)| in_one_place(springs, pinned, *cables));
+            let mut asleep = |scene: &mut VecScene<f64, Mixed>| {
+                let report = scene.step(&mut euler).unwrap();
+                (report.asleep, report.islands)
+            };
+            let islands = asleep(&mut a).1;
+            assert_eq!(asleep(&mut a), (islands, islands));
+            let (sleep, islands) = asleep(&mut b);
+            assert_eq!(sleep, 0, "{i}, {j}");
+            assert_eq!(asleep(&mut b), (islands, islands));
+        }
+    }
 }
 
 /// One change of a kind, to be made in both scenes alike; what is refused in one is refused in the other.

@@ -47,9 +47,9 @@ pub struct Sleeping<T, N, W> {
     rule: Rest<T>,
     numbers: N,
     words: W,
-    /// What the memory belongs to: dt and absolute tolerance; particles, unknowns and springs of the pattern
+    /// What the memory belongs to: dt and absolute tolerance; particles and unknowns of the pattern
     method: [T; 2],
-    sizes: [usize; 3],
+    sizes: [usize; 2],
 }
 
 /// Notes about an island, at its first particle: it began the last step at rest and is remembered; it is asleep, was
@@ -70,7 +70,7 @@ impl<T: Real, N, W> Sleeping<T, N, W> {
     /// Brings to rest what [`Rest`] of so many joules does, in this memory; [`Sleeping::needs`] says how large it is to be. If
     /// it is too small, a step fails with [`StepError::Workspace`], which says so too.
     pub const fn new(joules: T, numbers: N, words: W) -> Self {
-        Self { rule: Rest(joules), numbers, words, method: [T::ZERO; 2], sizes: [0; 3] }
+        Self { rule: Rest(joules), numbers, words, method: [T::ZERO; 2], sizes: [0; 2] }
     }
 }
 
@@ -89,7 +89,7 @@ impl<T: Real, N: AsMut<[T]>, W: AsMut<[u32]>> Sleeping<T, N, W> {
     #[inline(never)]
     fn is_pattern<M: Memory<Real = T>>(&mut self, islands: &Islands<M>, state: &State<'_, T>) -> bool {
         let particles = state.mass.len();
-        let same = remember(Some(&mut self.sizes), [particles, islands.free, islands.edges]);
+        let same = remember(Some(&mut self.sizes), [particles, islands.free]);
         let words = self.words.as_mut().get_mut(particles..).unwrap_or_default();
         words
             .split_at_mut_checked(particles)

@@ -1,10 +1,11 @@
-//! The pattern of a scene as words, to tell whether it has changed: of each row how many springs it owns and whether an
-//! island begins there, of each spring where its other end is and whether it goes slack. With the numbers of rows and springs
-//! that is all that a numbering says ([`crate::islands`]): two scenes of one pattern have the same islands in the same places.
+//! The pattern of a scene as words, to tell whether it has changed: of each row how many springs it owns, of each spring where
+//! its other end is and whether it goes slack. With the number of rows that is all that a numbering says
+//! ([`crate::islands`]): what lies past the last row is a pin, and an island ends where none of its rows owns a spring to a
+//! later one.
 
-use crate::islands::{Island, Islands};
+use crate::islands::Islands;
 use crate::law::Law;
-use crate::memory::{Memory, part, part_mut};
+use crate::memory::Memory;
 use crate::network::State;
 use crate::selection::{Ends, MARK};
 
@@ -28,13 +29,8 @@ pub(super) fn is_as_before<M: Memory>(
     state: &State<'_, M::Real>,
 ) -> bool {
     let mut same = true;
-    for island in islands.islands() {
-        let island = Island::unpack(*island);
-        let mut begins = MARK;
-        for (word, own) in part_mut(rows, island.slots()).iter_mut().zip(part(&islands.own, island.slots())) {
-            same &= remember(Some(word), *own | begins);
-            begins = 0;
-        }
+    for (word, own) in rows.iter_mut().zip(&*islands.own).take(islands.free) {
+        same &= remember(Some(word), *own);
     }
     let edges = islands.other.iter().zip(&*islands.spring).take(islands.edges);
     for (word, (other, j)) in springs.iter_mut().zip(edges) {
