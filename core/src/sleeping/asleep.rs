@@ -50,9 +50,11 @@ pub struct Sleeping<T, N, W> {
     /// What the memory belongs to: dt and absolute tolerance; particles and unknowns of the pattern
     method: [T; 2],
     sizes: [usize; 2],
+    /// Where the next island's springs are, islands being asked for in their order
+    next: usize,
 }
 
-/// Notes about an island, at its first particle: it began the last step at rest and is remembered; it is asleep, was
+/// Notes about an island, at its first row: it began the last step at rest and is remembered; it is asleep, was
 /// certified, and in the other bits how many of its springs were clamped.
 const REMEMBERED: u32 = 1 << 29;
 const CERTIFIED: u32 = 1 << 30;
@@ -70,19 +72,20 @@ impl<T: Real, N, W> Sleeping<T, N, W> {
     /// Brings to rest what [`Rest`] of so many joules does, in this memory; [`Sleeping::needs`] says how large it is to be. If
     /// it is too small, a step fails with [`StepError::Workspace`], which says so too.
     pub const fn new(joules: T, numbers: N, words: W) -> Self {
-        Self { rule: Rest(joules), numbers, words, method: [T::ZERO; 2], sizes: [0; 2] }
+        Self { rule: Rest(joules), numbers, words, method: [T::ZERO; 2], sizes: [0; 2], next: 0 }
     }
 }
 
 impl<T: Real, N: AsMut<[T]>, W: AsMut<[u32]>> Sleeping<T, N, W> {
-    /// What is remembered of each particle (M̃, h f, both bounds of its island's solve) and of each spring (Δx, k, l₀, c).
+    /// What is remembered of each row (M̃, h f, both bounds of its island's solve) and of each spring (Δx, k, l₀, c), in the
+    /// order of the islands: while the pattern is the same, no island's lie in another's place.
     fn records(&mut self) -> (&mut [[T; 6]], &mut [[T; 6]]) {
         let records = self.numbers.as_mut().as_chunks_mut().0;
         records.split_at_mut_checked(self.sizes[0]).unwrap_or_default()
     }
 
-    fn note(&mut self, particle: usize) -> Option<&mut u32> {
-        self.words.as_mut().get_mut(particle)
+    fn note(&mut self, first_row: usize) -> Option<&mut u32> {
+        self.words.as_mut().get_mut(first_row)
     }
 
     /// Remembers the pattern of the whole scene; answers whether it is the one that was.
@@ -103,6 +106,8 @@ impl<T: Real, N: AsMut<[T]>, W: AsMut<[u32]>> Sleeping<T, N, W> {
     fn is_as_before<F: Force<T>>(&mut self, island: &IslandParts<'_, T>, forces: &F) -> Option<bool> {
         let matrix = &island.matrix;
         let state = matrix.rows.state();
+        let first_spring = self.next;
+        self.next += island.spring.len();
         if F::ANCHORS && island.vectors.y.iter().any(|mark| mark[0] != T::ZERO) {
             return None;
         }
@@ -111,23 +116,23 @@ impl<T: Real, N: AsMut<[T]>, W: AsMut<[u32]>> Sleeping<T, N, W> {
             return None;
         }
         let (rows, springs) = self.records();
+        let (rows, springs) = (rows.get_mut(matrix.rows.first..)?, springs.get_mut(first_spring..)?);
         let mut same = true;
-        for ((i, m), b) in matrix.rows.particles().zip(matrix.inertia.iter()).zip(island.vectors.b.iter()) {
-            let place = rows.get_mut(i)?;
+        for (place, (m, b)) in rows.iter_mut().zip(matrix.inertia.iter().zip(island.vectors.b.iter())) {
             let [.., upper, lower] = *place;
             same &= remember(Some(place), [*m, b[0], b[1], b[2], upper, lower]);
         }
-        let mut edges = matrix.other.iter().zip(island.spring);
+        let mut edges = matrix.other.iter().zip(island.spring).zip(springs);
         for (row, own) in matrix.own.iter().enumerate() {
             let near = island.end(row);
-            for (other, j) in edges.by_ref().take(*own as usize) {
+            for ((other, j), place) in edges.by_ref().take(*own as usize) {
                 let (far, j) = (island.end(*other as usize), *j as usize);
                 if !rest(Some(&far.velocity)) {
                     return None;
                 }
                 let [x, y, z] = vec3::sub(near.position, far.position);
                 let (spring, c) = (state.spring(j), if F::DAMPS { forces.damping(j) } else { T::ZERO });
-                same &= remember(springs.get_mut(j), [x, y, z, spring.stiffness, spring.rest_length, c]);
+                same &= remember(Some(place), [x, y, z, spring.stiffness, spring.rest_length, c]);
             }
         }
         Some(same)
@@ -151,6 +156,7 @@ impl<T: Real, N: AsMut<[T]>, W: AsMut<[u32]>> steps::Sleeps<T> for Sleeping<T, N
         if !(self.is_pattern(parts.islands, &state) && method) {
             part_mut(self.words.as_mut(), 0..state.mass.len()).fill(0);
         }
+        self.next = 0;
         Ok(())
     }
 
@@ -159,18 +165,19 @@ impl<T: Real, N: AsMut<[T]>, W: AsMut<[u32]>> steps::Sleeps<T> for Sleeping<T, N
         island: &mut IslandParts<'_, T>,
         forces: &F,
     ) -> Option<IslandReport<T>> {
-        let first_particle = island.matrix.rows.particles().next()?;
         let same = self.is_as_before(island, forces);
-        let note = self.note(first_particle)?;
+        let first = island.matrix.rows.first;
+        let note = self.note(first)?;
         let asleep = *note & ASLEEP != 0 && same == Some(true);
         if !asleep {
             *note = if same.is_some() { REMEMBERED } else { 0 };
             return None;
         }
         let (certified, clamped) = (*note & CERTIFIED != 0, *note & (REMEMBERED - 1));
-        let [.., upper, lower] = *self.records().0.get(first_particle)?;
+        let [.., upper, lower] = *self.records().0.get(first)?;
         island.vectors.x.fill([T::ZERO; 3]);
         let solve = Solve { iterations: 0, upper, lower, ending: Ending::Untouched, fallback: false };
+        let first_particle = island.matrix.rows.particles().next()?;
         let particles = island.matrix.rows.particle.len();
         Some(IslandReport { first_particle, particles, clamped, certified, asleep: true, solve })
     }
@@ -183,12 +190,12 @@ impl<T: Real, N: AsMut<[T]>, W: AsMut<[u32]>> steps::Sleeps<T> for Sleeping<T, N
         found: Found,
     ) -> Option<Solve<T>> {
         let solve = self.rule.rest(system, vectors, absolute, found)?;
-        let first_particle = system.matrix.rows.particles().next().unwrap_or(usize::MAX);
+        let first = system.matrix.rows.first;
         // A step without a finite bound is about to fail, and is to fail again.
         let kept = found.clamped < REMEMBERED && solve.upper.is_finite();
-        if let Some(note) = self.note(first_particle).filter(|note| kept && **note == REMEMBERED) {
+        if let Some(note) = self.note(first).filter(|note| kept && **note == REMEMBERED) {
             *note = ASLEEP | if found.certified { CERTIFIED } else { 0 } | found.clamped;
-            if let Some([.., upper, lower]) = self.records().0.get_mut(first_particle) {
+            if let Some([.., upper, lower]) = self.records().0.get_mut(first) {
                 (*upper, *lower) = (solve.upper, solve.lower);
             }
         }
