@@ -15,8 +15,8 @@ pub struct Parts<'a, M: Memory> {
     pub(crate) work: &'a mut WorkLists<M>,
 }
 
-/// One island of a scene: its rows of every list.
-pub(crate) struct IslandParts<'a, T> {
+/// One island of a scene: its rows of every list. Opaque, and named only here.
+pub struct IslandParts<'a, T> {
     pub(crate) matrix: Matrix<'a, T>,
     pub(crate) vectors: Vectors<'a, T>,
     /// For the preconditioner
@@ -45,8 +45,8 @@ pub(crate) struct Matrix<'a, T> {
     pub(crate) hessian: &'a mut [[T; 4]],
 }
 
-/// The vectors of a solve, one entry per row.
-pub(crate) struct Vectors<'a, T> {
+/// The vectors of a solve, one entry per row. Opaque, and named only here.
+pub struct Vectors<'a, T> {
     /// Right side; scratch after the solve
     pub(crate) b: &'a mut [Vec3<T>],
     /// Solution

@@ -4,7 +4,7 @@
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 #[cfg_attr(feature = "defmt", derive(defmt::Format))]
 pub enum Ending {
-    /// The start already met the tolerance: 0 iterations.
+    /// The start already met the tolerance, or the island came to rest ([`crate::Rest`]): 0 iterations.
     Untouched,
     /// The tolerance is met.
     Converged,
@@ -45,6 +45,8 @@ pub struct IslandReport<T> {
     pub clamped: u32,
     /// Did every node hold its certificate without clamping?
     pub certified: bool,
+    /// Is it asleep ([`crate::Sleeping`])? Then nothing of it was assembled or solved; all else is as when it last was.
+    pub asleep: bool,
     /// The solve.
     pub solve: Solve<T>,
 }
@@ -65,6 +67,8 @@ pub struct Report<T> {
     pub islands: u32,
     /// Islands whose start already met the tolerance: 0 iterations.
     pub untouched: u32,
+    /// Of these, islands asleep: neither assembled nor solved.
+    pub asleep: u32,
     /// Islands certified without a projection pass.
     pub certified: u32,
     /// Islands that ended at the floor of their own rounding.
@@ -88,6 +92,7 @@ impl<T: crate::Real> Report<T> {
             clamped: 0,
             islands: 0,
             untouched: 0,
+            asleep: 0,
             certified: 0,
             at_floor: 0,
             capped: 0,
@@ -107,6 +112,7 @@ impl<T: crate::Real> Report<T> {
         self.clamped += island.clamped;
         self.islands += 1;
         self.untouched += ended(Ending::Untouched);
+        self.asleep += u32::from(island.asleep);
         self.certified += u32::from(island.certified);
         self.at_floor += ended(Ending::Floor);
         self.capped += ended(Ending::Capped);

@@ -66,7 +66,7 @@ pub struct RunArgs {
     /// Relative tolerance of a solve: stop at β ≤ R²β₀ [default: 1e-6 in f64, 1e-4 in f32]
     #[arg(long, value_name = "R", allow_negative_numbers = true, help_heading = "Method")]
     pub tolerance: Option<f64>,
-    /// Absolute tolerance of a solve: stop at β ≤ J joules [default: 0]
+    /// Absolute tolerance of a solve: stop at β ≤ J joules [default: 0, or the J of --sleep]
     #[arg(long, value_name = "J", allow_negative_numbers = true, help_heading = "Method")]
     pub absolute: Option<f64>,
     /// At most so many iterations per island and step [default: 10000]
@@ -76,6 +76,10 @@ pub struct RunArgs {
     /// Cuthill–McKee), for meshes numbered at random; every output keeps your ids, last digits may differ
     #[arg(long, value_enum, value_name = "HOW", default_value_t = Renumber::None, help_heading = "Method")]
     pub renumber: Renumber,
+    /// Let islands sleep: one that has at most J joules of kinetic energy, and would gain no more than --absolute from rest,
+    /// is stopped (this changes the trajectory) and skipped until something changes [default: off]
+    #[arg(long, value_name = "J", allow_negative_numbers = true, help_heading = "Method")]
+    pub sleep: Option<f64>,
     /// Precision of the simulation
     #[arg(long, value_enum, default_value_t = Precision::F64, help_heading = "Method")]
     pub precision: Precision,

@@ -383,13 +383,27 @@ fn help_names_every_command_option_and_scene() {
     for word in ["run", "info", "cloth:N"] {
         assert!(help.contains(word), "{word} in {help}");
     }
-    let options = "--dt --steps --seconds --integrator --solver --tolerance --absolute --max-iterations --renumber --precision \
+    let options = "--dt --steps --seconds --integrator --solver --tolerance --absolute --max-iterations --renumber --sleep --precision \
                    --stiffness --mass --gravity --velocity --pin --out --fps --final --json --quiet";
     let scenes = "curtain cloth:N net:N syrup:N chain:N lattice:AxBxC spring pair";
     for word in options.split_whitespace().chain(scenes.split_whitespace()) {
         assert!(run.contains(word), "{word} in {run}");
     }
     assert_eq!(folder.names(), [""; 0]);
+}
+
+#[test]
+fn islands_sleep_where_they_are_told_to_and_the_figures_count_them() {
+    let options = "chain:5 --dt 0.1 --seconds 30 --absolute 1e-6";
+    let asleep = |f: &Value| [&f["asleep_islands"], &f["asleep_at_end"]].map(|n| n.as_u64().unwrap());
+    let (off, on) = (figures(options), figures(&format!("{options} --sleep 1e-6")));
+    assert_eq!(asleep(&off), [0, 0]);
+    assert_eq!(asleep(&on)[1], 1);
+    assert!(asleep(&on)[0] > 100 && on["iterations"].as_u64() < off["iterations"].as_u64(), "{on}");
+    assert!(on["workspace_bytes"].as_u64() > off["workspace_bytes"].as_u64());
+    let folder = Scratch::new();
+    let summary = folder.ok("run chain:5 --dt 0.1 --seconds 30 --sleep 1e-6 --json f.json").stdout;
+    assert!(summary.contains("asleep, 1 island at the end"), "{summary}");
 }
 
 /// Every bad input: exit code 2, one line that names the value, nothing written.
@@ -429,6 +443,8 @@ fn bad_options_and_names_are_refused() {
         ("run cloth:4 --tolerance -1", vec!["--tolerance -1"]),
         ("run cloth:4 --tolerance NaN", vec!["--tolerance NaN"]),
         ("run cloth:4 --absolute -1", vec!["--absolute -1"]),
+        ("run cloth:4 --sleep -1", vec!["--sleep -1"]),
+        ("run cloth:4 --precision f32 --sleep 1e300 --absolute 1", vec!["--sleep 1e300", "range of f32"]),
         ("run cloth:4 --max-iterations -1", vec!["-1"]),
         ("run cloth:4 --gravity 1,2", vec!["'1,2'", "three numbers"]),
         ("run cloth:4 --gravity 1,2,inf", vec!["'inf' is not a finite number"]),

@@ -1,6 +1,9 @@
 //! The report's counters: each says what was done, and what was not.
 
-use hooke::{Ending, LinearlyImplicitEuler, Spring};
+use std::cell::Cell;
+
+use hooke::force::Rows;
+use hooke::{Ending, Force, Hessian, LinearlyImplicitEuler, Scaling, Spring, State, StepError};
 use hooke_tests::vec_memory::VecScene;
 use hooke_tests::{build, generate};
 
@@ -116,4 +119,106 @@ fn one_free_particle_on_many_springs_is_solved_in_one_iteration() {
     }
     let report = scene.step(&mut LinearlyImplicitEuler::new(0.1).tolerance(1e-8)).unwrap();
     assert_eq!(report.iterations, 1);
+}
+
+/// How often a step asks a force for what.
+#[derive(Default)]
+struct Counts {
+    add: Cell<u32>,
+    damping: Cell<u32>,
+    hessians: Cell<u32>,
+    clamp: Cell<u32>,
+    energy: Cell<u32>,
+}
+
+/// A force of all kinds, all of them 0, that counts.
+struct Counting<'a>(&'a Counts);
+
+fn one_more(count: &Cell<u32>) {
+    count.set(count.get() + 1);
+}
+
+impl Force<f64> for Counting<'_> {
+    const DAMPS: bool = true;
+    const ANCHORS: bool = true;
+    fn check(&self, _: usize, _: usize) -> Result<(), StepError> {
+        Ok(())
+    }
+    fn add(&self, _: &Rows<'_, f64>, _: &mut [[f64; 3]]) {
+        one_more(&self.0.add);
+    }
+    fn damping(&self, _: usize) -> f64 {
+        one_more(&self.0.damping);
+        0.0
+    }
+    fn clamp(&mut self, _: &Rows<'_, f64>, _: Scaling<f64>, _: impl Fn(usize) -> bool) -> u32 {
+        one_more(&self.0.clamp);
+        0
+    }
+    fn hessians(&self, rows: &Rows<'_, f64>, visit: &mut impl FnMut(usize, Hessian<f64>)) {
+        one_more(&self.0.hessians);
+        if let Some(row) = rows.row(1) {
+            visit(row, Hessian::default());
+        }
+    }
+    fn potential_energy(&self, _: State<'_, f64>) -> f64 {
+        one_more(&self.0.energy);
+        0.0
+    }
+}
+
+#[test]
+fn where_every_node_is_certified_no_projection_pass_is_made() {
+    // Assembling asks for a spring's damping, clamping it asks again.
+    for (stiffness, passes) in [(127.0, 0), (128.0, 1)] {
+        let counts = Counts::default();
+        let mut euler = LinearlyImplicitEuler::new(1.0 / 16.0).with(Counting(&counts));
+        let report = compressed(stiffness).step(&mut euler).unwrap();
+        assert_eq!((counts.clamp.get(), counts.damping.get()), (passes, 1 + passes), "k = {stiffness}");
+        assert_eq!((report.clamped, report.certified), (passes, 1 - passes));
+    }
+}
+
+#[test]
+fn an_iteration_is_one_product_a_check_another_and_a_start_that_meets_the_tolerance_needs_neither() {
+    let mut data = generate::rope(10);
+    // Not straight, so that one iteration is not enough.
+    (data.position[4][1], data.position[7][2]) = (0.05, 0.03);
+    // Every product, and nothing else that differs between these, asks for the point springs.
+    let products = |max_iterations: u32, absolute: f64| {
+        let counts = Counts::default();
+        let mut euler = LinearlyImplicitEuler::new(1.0 / 60.0)
+            .gravity(data.gravity)
+            .with(Counting(&counts))
+            .tolerance(0.0)
+            .absolute(absolute)
+            .max_iterations(max_iterations);
+        let report = build::scene::<f64>(&data).step(&mut euler).unwrap();
+        (counts.hessians.get(), report.iterations, report.untouched)
+    };
+    let (none, ..) = products(0, 0.0);
+    for n in 1..6 {
+        assert_eq!(products(n, 0.0), (none + n + 1, n, 0));
+    }
+    assert_eq!(products(100, 1e3), (none, 0, 1));
+}
+
+#[test]
+fn a_step_asks_a_force_once_for_all_islands_and_for_no_energy() {
+    let mut scene = VecScene::<f64>::empty();
+    for i in 0..6 {
+        scene.particle([f64::from(i), 0.0, 0.0], 1.0).unwrap();
+    }
+    for a in [0, 2, 4] {
+        scene.spring(a, a + 1, 100.0).unwrap();
+    }
+    scene.set_velocity(3, [1.0, 0.0, 0.0]).unwrap();
+    let counts = Counts::default();
+    let mut euler = LinearlyImplicitEuler::new(0.1).with(Counting(&counts));
+    assert_eq!(scene.step(&mut euler).unwrap().islands, 3);
+    assert_eq!((counts.add.get(), counts.damping.get(), counts.energy.get()), (1, 3, 0));
+    // What is asked for is computed, and only then.
+    scene.reaction(0, &euler.forces).unwrap();
+    euler.forces.potential_energy(scene.state());
+    assert_eq!((counts.add.get(), counts.energy.get()), (2, 1));
 }

@@ -1,7 +1,8 @@
 # shellcheck shell=bash
 # A feature that a program does not name costs it nothing: the minimal program is the same, byte for byte, when core has
 # no trace of drag, spring damping, point forces, point springs, cables, snapshots, reactions, energies, momenta, the
-# stiffness matrix, the direct solvers, and SSOR and D-ILU; and the same functions without any solver but its own. Sourced by check.sh.
+# stiffness matrix, sleeping, the direct solvers, and SSOR and D-ILU; and the same functions without any solver but its own.
+# Sourced by check.sh.
 
 # Takes the features out of a copy of core's sources.
 without_features() {
@@ -18,6 +19,9 @@ without_features() {
     sed -i -E '/^(pub )?(mod|use) (block_ilu|eisenstat|ssor|triangle)\b/d' "$source/solver/mod.rs"
     sed -i -E '/^pub use solver::\{BlockIlu/d' "$source/lib.rs"
     sed -i -E 's/^(pub use solver::).*$/\1{BlockJacobi, Jacobi, Multigrid, Preconditioner, Solver, Stop};/' "$source/lib.rs"
+    rm "$source"/sleeping/{asleep,pattern,rest}.rs
+    sed -i -E '/^(pub )?(mod|use) (asleep|pattern|rest)\b/d' "$source/sleeping/mod.rs"
+    sed -i -E 's/^(pub use sleeping::).*$/\1{Awake, Sleep};/' "$source/lib.rs"
     # Comments too: what they belong to is gone.
     sed -i -E '/^ *\/\/\//d; /^use crate::energy/d; /^    pub fn (springs|reaction)\b/,/^    }/d' "$source/scene.rs"
     sed -i -E '/^impl<M: Memory<Law = Mixed>>/,/^}/d; /^use crate::law::Mixed/d' "$source/edit.rs"

@@ -18,22 +18,25 @@ use crate::error::StepError;
 use crate::force::{Force, Gravity};
 use crate::hessian::Scaling;
 use crate::islands::Islands;
+use crate::law::Law;
 use crate::memory::Memory;
 use crate::network::Network;
 use crate::parts::{IslandParts, Parts};
 use crate::pins::Motion;
 use crate::real::Real;
 use crate::report::{IslandReport, Report};
-use crate::solver::{Answer, BlockJacobi, Island, Solver, Stop};
+use crate::sleeping::{Awake, Found, Sleep};
+use crate::solver::{Answer, BlockJacobi, Island, Problem, Solver, Stop};
 use crate::system::System;
 use crate::vec3::{self, Vec3};
 
 /// (M + hD − h²K̃)q̇⁺ = Mq̇ + hf, q⁺ = q + hq̇⁺, with the forces `F` besides the springs'.
 #[derive(Debug, Clone, Copy)]
-pub struct LinearlyImplicitEuler<T, F = (), S = BlockJacobi> {
+pub struct LinearlyImplicitEuler<T, F = (), S = BlockJacobi, Z = Awake> {
     dt: T,
     stop: Stop<T>,
     solver: S,
+    sleep: Z,
     /// The forces besides the springs' own; change their values between steps here. The last one added is `.1`, the
     /// one before it `.0.1`, and so on.
     pub forces: F,
@@ -43,25 +46,31 @@ impl<T: Real> LinearlyImplicitEuler<T> {
     /// A step of `dt` seconds with the default stopping rule and no forces but the springs'. The values are checked at
     /// each step.
     pub const fn new(dt: T) -> Self {
-        Self { dt, stop: Stop::new(), solver: BlockJacobi, forces: () }
+        Self { dt, stop: Stop::new(), solver: BlockJacobi, sleep: Awake, forces: () }
     }
 }
 
-impl<T: Real, F, S> LinearlyImplicitEuler<T, F, S> {
+impl<T: Real, F, S, Z> LinearlyImplicitEuler<T, F, S, Z> {
     /// Adds a force.
-    pub fn with<G>(self, force: G) -> LinearlyImplicitEuler<T, (F, G), S> {
-        let Self { dt, stop, solver, forces } = self;
-        LinearlyImplicitEuler { dt, stop, solver, forces: (forces, force) }
+    pub fn with<G>(self, force: G) -> LinearlyImplicitEuler<T, (F, G), S, Z> {
+        let Self { dt, stop, solver, sleep, forces } = self;
+        LinearlyImplicitEuler { dt, stop, solver, sleep, forces: (forces, force) }
     }
 
     /// Solves by another method; [`BlockJacobi`] unless said.
-    pub fn solver<R: Solver<T>>(self, solver: R) -> LinearlyImplicitEuler<T, F, R> {
-        let Self { dt, stop, forces, .. } = self;
-        LinearlyImplicitEuler { dt, stop, solver, forces }
+    pub fn solver<R: Solver<T>>(self, solver: R) -> LinearlyImplicitEuler<T, F, R, Z> {
+        let Self { dt, stop, sleep, forces, .. } = self;
+        LinearlyImplicitEuler { dt, stop, solver, sleep, forces }
+    }
+
+    /// Brings islands to rest, and with [`crate::Sleeping`] skips those that stay there; [`Awake`] unless said.
+    pub fn sleeping<R: Sleep<T>>(self, sleep: R) -> LinearlyImplicitEuler<T, F, S, R> {
+        let Self { dt, stop, solver, forces, .. } = self;
+        LinearlyImplicitEuler { dt, stop, solver, sleep, forces }
     }
 
     /// Adds gravity, m/s².
-    pub fn gravity(self, g: Vec3<T>) -> LinearlyImplicitEuler<T, (F, Gravity<T>), S> {
+    pub fn gravity(self, g: Vec3<T>) -> LinearlyImplicitEuler<T, (F, Gravity<T>), S, Z> {
         self.with(Gravity(g))
     }
 
@@ -89,7 +98,7 @@ impl<T: Real, F, S> LinearlyImplicitEuler<T, F, S> {
     }
 }
 
-impl<T: Real, F: Force<T>, S> LinearlyImplicitEuler<T, F, S> {
+impl<T: Real, F: Force<T>, S, Z> LinearlyImplicitEuler<T, F, S, Z> {
     /// Refuses what no step can be made with, writes the pins' velocities over this step behind the unknowns, and asks
     /// the forces.
     fn begin<M: Memory<Real = T>>(
@@ -152,7 +161,7 @@ impl<T: Real, F: Force<T>, S> LinearlyImplicitEuler<T, F, S> {
     }
 }
 
-impl<T: Real, F: Force<T>, S: Solver<T>> Integrator<T> for LinearlyImplicitEuler<T, F, S> {
+impl<T: Real, F: Force<T>, S: Solver<T>, Z: Sleep<T>> Integrator<T> for LinearlyImplicitEuler<T, F, S, Z> {
     fn advance<M: Memory<Real = T>>(
         &mut self,
         mut parts: Parts<'_, M>,
@@ -160,24 +169,57 @@ impl<T: Real, F: Force<T>, S: Solver<T>> Integrator<T> for LinearlyImplicitEuler
         watch: &mut impl FnMut(&IslandReport<T>),
     ) -> Result<Report<T>, StepError> {
         let scaling = self.begin(&mut parts, motion)?;
+        self.sleep.begin(&parts, self.dt, self.stop.absolute)?;
+        self.solver.begin();
         let Parts { network, islands, work } = parts;
         let state = network.state();
         let mut report = Report::new(state.springs() - islands.edges);
         for k in 0..islands.count {
             let mut island = islands.island(k, work, &state);
-            let to = Island { island: &mut island, forces: &mut self.forces, h: self.dt, scaling };
-            let Answer { clamped, certified, solve } = self.solver.answer::<F, M::Law>(to, &self.stop)?;
+            if let Some(asleep) = self.sleep.asleep(&mut island, &self.forces) {
+                report.add(&asleep);
+                watch(&asleep);
+                continue;
+            }
+            let Answer { clamped, certified, solve } = if self.sleep.is_slow(&island) {
+                self.slow_step::<M::Law>(&mut island, scaling)?
+            } else {
+                let to = Island { island: &mut island, forces: &mut self.forces, h: self.dt, scaling };
+                self.solver.answer::<F, M::Law>(to, &self.stop)?
+            };
             let rows = island.matrix.rows.particle;
             let first_particle = rows.first().map_or(0, |i| *i as usize);
             if !solve.upper.is_finite() {
                 return Err(StepError::NotFinite(first_particle));
             }
-            let island = IslandReport { first_particle, particles: rows.len(), clamped, certified, solve };
+            let particles = rows.len();
+            let island = IslandReport { first_particle, particles, clamped, certified, asleep: false, solve };
             report.add(&island);
             watch(&island);
         }
         commit(network, islands, &work.x, self.dt, motion)?;
         Ok(report)
+    }
+}
+
+impl<T: Real, F: Force<T>, S: Solver<T>, Z: Sleep<T>> LinearlyImplicitEuler<T, F, S, Z> {
+    /// The step of an island that may come to rest: what it is decided by is the scene's own assembly.
+    #[inline(never)]
+    fn slow_step<L: Law>(
+        &mut self,
+        island: &mut IslandParts<'_, T>,
+        scaling: Scaling<T>,
+    ) -> Result<Answer<T>, StepError> {
+        let Assembled { clamped, certified, points, free } =
+            assemble::<T, F, L>(island, &mut self.forces, self.dt, scaling)?;
+        let IslandParts { matrix, vectors, block, .. } = island;
+        let system = System { matrix, forces: &self.forces, points };
+        let found = Found { clamped, certified };
+        let solve = match self.sleep.rest(&system, vectors, self.stop.absolute, found) {
+            Some(solve) => solve,
+            None => self.solver.solve(Problem { system, vectors, block, free }, &self.stop)?,
+        };
+        Ok(Answer { clamped, certified, solve })
     }
 }
 

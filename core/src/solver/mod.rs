@@ -64,6 +64,10 @@ pub struct Answer<T> {
 
 /// A method for A x = b.
 pub trait Solver<T: Real> {
+    /// A step begins, whose islands are about to come in their order; those that need no solve do not.
+    #[inline(always)]
+    fn begin(&mut self) {}
+
     /// Assembles one island's system and solves it. A solver with a layout of its own may assemble in its own way; the
     /// others have it done in the scene's lists.
     ///
@@ -101,6 +105,11 @@ impl<T: Real, S: Solver<T>> Solver<T> for &mut S {
         stop: &Stop<T>,
     ) -> Result<Answer<T>, StepError> {
         (**self).answer::<F, L>(to, stop)
+    }
+
+    #[inline]
+    fn begin(&mut self) {
+        (**self).begin();
     }
 
     fn solve<F: Force<T>>(

@@ -163,6 +163,10 @@ where
     N: AsMut<[T]>,
     W: AsMut<[u32]>,
 {
+    fn begin(&mut self) {
+        self.cursor = 0;
+    }
+
     fn solve<F: Force<T>>(
         &mut self,
         problem: Problem<'_, '_, T, F>,

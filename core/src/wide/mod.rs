@@ -200,6 +200,10 @@ fn put_back<T: Real>(island: &mut IslandParts<'_, T>, layout: &Layout, words: &[
 impl<T: Real, N: AsMut<[T]>, W: AsMut<[u32]>, D: Dispatch, P: Preconditions<T>> Solver<T>
     for Wide<N, W, D, P>
 {
+    fn begin(&mut self) {
+        self.preconditioner.begin();
+    }
+
     fn answer<F: Force<T>, L: Law>(
         &mut self,
         mut to: Island<'_, '_, T, F>,

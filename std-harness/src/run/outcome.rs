@@ -55,6 +55,10 @@ pub struct Outcome {
     pub fallback_steps: u64,
     /// Island solves that took 0 iterations, in all steps together.
     pub untouched_islands: u64,
+    /// Of these, how many of islands asleep: neither assembled nor solved.
+    pub asleep_islands: u64,
+    /// Islands asleep in the last step.
+    pub asleep_at_end: u32,
     /// Springs that no step needed: both ends pinned.
     pub springs_skipped: u32,
     /// Total energy at the start, J (kinetic, springs, gravity).
@@ -69,7 +73,7 @@ pub struct Outcome {
     /// The largest lower bound, J.
     #[serde(rename = "error_lower_J")]
     pub error_lower_j: f64,
-    /// Bytes of the scene's lists and of the solver's own scratch.
+    /// Bytes of the scene's lists, of the solver's own scratch, and of what sleeping remembers.
     pub workspace_bytes: usize,
     /// Did the harness renumber the particles?
     pub renumbered: bool,
@@ -133,6 +137,8 @@ impl Outcome {
             stalled_steps: 0,
             fallback_steps: 0,
             untouched_islands: 0,
+            asleep_islands: 0,
+            asleep_at_end: 0,
             springs_skipped: 0,
             energy_start: energy.total,
             energy_end: energy.total,
@@ -162,6 +168,8 @@ impl Outcome {
         self.stalled_steps += u64::from(report.stalled > 0);
         self.fallback_steps += u64::from(report.fallbacks > 0);
         self.untouched_islands += u64::from(report.untouched);
+        self.asleep_islands += u64::from(report.asleep);
+        self.asleep_at_end = report.asleep;
         self.springs_skipped = report.springs_skipped;
         self.error_bound_j = self.error_bound_j.max(report.upper.to_f64());
         self.error_lower_j = self.error_lower_j.max(report.lower.to_f64());

@@ -32,6 +32,8 @@ pub struct Plan {
     pub tolerance: Option<f64>,
     /// Absolute tolerance, J.
     pub absolute: f64,
+    /// Islands with no more kinetic energy than this may sleep, J; none do if none.
+    pub sleep: Option<f64>,
     /// At most so many iterations; the kernel's default if none.
     pub max_iterations: Option<u32>,
     /// How the linear systems are solved.
@@ -117,7 +119,8 @@ impl Plan {
             Renumber::Rcm => renumbered(&mut model),
         };
         let tolerance = args.tolerance.map(|r| not_negative("--tolerance", r)).transpose()?;
-        let absolute = not_negative("--absolute", args.absolute.unwrap_or(0.0))?;
+        let sleep = args.sleep.map(|joules| not_negative("--sleep", joules)).transpose()?;
+        let absolute = not_negative("--absolute", args.absolute.or(args.sleep).unwrap_or(0.0))?;
         let fps = positive("--fps", args.fps.or(wanted.fps).unwrap_or(60.0))?;
 
         let (final_csv, json) =
@@ -131,6 +134,7 @@ impl Plan {
             steps: steps as u64,
             tolerance,
             absolute,
+            sleep,
             max_iterations: args.max_iterations,
             method: METHODS.get(solver).map_or(Method::Jacobi, |(_, method)| *method),
             reason: None,

@@ -7,8 +7,8 @@ use std::path::Path;
 
 use hooke::force::Coefficients;
 use hooke::{
-    Drag, Force, Gravity, LinearlyImplicitEuler, MassSpring, Motion, Real, Report, SceneIn, SpringDamping,
-    StepError,
+    Drag, Force, Gravity, LinearlyImplicitEuler, MassSpring, Motion, Real, Report, SceneIn, Sleeping,
+    SpringDamping, StepError,
 };
 
 use super::plan::Plan;
@@ -33,13 +33,15 @@ impl<T: Real> Coefficients<T> for Dampings<T> {
 }
 
 type Forces<T> = ((((), Gravity<T>), Drag<T>), SpringDamping<Dampings<T>>);
+type MaybeSleeping<T> = Option<Sleeping<T, Vec<T>, Vec<u32>>>;
 
 /// A running simulation in precision `T`.
 pub struct Simulation<T: Real> {
     /// The kernel's scene, in the kernel's numbering.
     pub scene: MassSpring<Heap<T>>,
-    euler: LinearlyImplicitEuler<T, Forces<T>, AnySolver<T>>,
-    solver_bytes: usize,
+    euler: LinearlyImplicitEuler<T, Forces<T>, AnySolver<T>, MaybeSleeping<T>>,
+    /// Of the solver's own scratch and of what sleeping remembers
+    scratch_bytes: usize,
     numbering: Option<Numbering>,
     moving: Vec<Moving>,
     /// Where the moving pins were at t = 0.
@@ -67,6 +69,7 @@ fn in_range<T: Real>(plan: &Plan) -> Result<(), InputError> {
         ("--gravity", z),
         ("--tolerance", tolerance),
         ("--absolute", plan.absolute),
+        ("--sleep", plan.sleep.unwrap_or(0.0)),
         ("drag", plan.model.drag),
     ] {
         if !T::from_f64(value).is_finite() {
@@ -105,8 +108,14 @@ impl<T: Real + Display> Simulation<T> {
             scene = model.build::<T>()?;
         }
         let solver = AnySolver::new(plan.method, &mut scene, model);
-        let solver_bytes = solver.bytes();
-        let euler = euler.solver(solver);
+        let (numbers, words) = match plan.sleep {
+            Some(_) => Sleeping::needs(model.mass.len(), model.springs.len()),
+            None => (0, 0),
+        };
+        let scratch_bytes = solver.bytes() + numbers * size_of::<T>() + words * size_of::<u32>();
+        let sleeping =
+            plan.sleep.map(|joules| Sleeping::new(real(joules), vec![T::ZERO; numbers], vec![0; words]));
+        let euler = euler.solver(solver).sleeping(sleeping);
         // What would fail at the first step fails now, before anything is written.
         euler
             .forces
@@ -116,7 +125,7 @@ impl<T: Real + Display> Simulation<T> {
         Ok(Self {
             scene,
             euler,
-            solver_bytes,
+            scratch_bytes,
             numbering: plan.numbering.clone(),
             moving: model.moving.clone(),
             origin,
@@ -161,10 +170,11 @@ impl<T: Real + Display> Simulation<T> {
         speeds.fold((0, 0.0), |best, now| if now.1 > best.1 { now } else { best })
     }
 
-    /// Bytes of the scene's lists (state, islands and the solver's vectors) and of the solver's own scratch.
+    /// Bytes of the scene's lists (state, islands and the solver's vectors), of the solver's own scratch, and of what
+    /// sleeping remembers.
     pub fn workspace_bytes(&self) -> usize {
         let (reals, words) = SceneIn::<T>::needs(self.scene.positions().len(), self.scene.state().springs());
-        reals * size_of::<T>() + words * size_of::<u32>() + self.solver_bytes
+        reals * size_of::<T>() + words * size_of::<u32>() + self.scratch_bytes
     }
 
     /// Positions in the order of the user's ids.

@@ -166,6 +166,18 @@ impl<T: Real> Solver<T> for AnySolver<T> {
         }
     }
 
+    fn begin(&mut self) {
+        match self {
+            Self::Jacobi(solver) => Solver::<T>::begin(solver),
+            Self::Wide(solver, _) => Solver::<T>::begin(solver.as_mut()),
+            Self::Multigrid(solver, _) => Solver::<T>::begin(solver.as_mut()),
+            Self::Banded(solver, _) => Solver::<T>::begin(solver),
+            Self::Ssor(solver, _) => Solver::<T>::begin(solver),
+            Self::Ilu(solver, _) => Solver::<T>::begin(solver),
+            Self::Ldl(solver, _) => Solver::<T>::begin(solver.as_mut()),
+        }
+    }
+
     fn solve<F: Force<T>>(
         &mut self,
         problem: hooke::solver::Problem<'_, '_, T, F>,

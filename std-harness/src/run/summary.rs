@@ -101,6 +101,11 @@ pub fn text(plan: &Plan, outcome: &Outcome, recorder: &Recorder<'_>) -> String {
         let solves = count(o.untouched_islands as usize, "island solve", "island solves");
         skipped.push(format!("{solves} took no iteration"));
     }
+    if o.asleep_islands > 0 {
+        let solves = grouped(o.asleep_islands);
+        let at_end = count(o.asleep_at_end as usize, "island", "islands");
+        skipped.push(format!("{solves} of them asleep, {at_end} at the end"));
+    }
     if o.springs_skipped > 0 {
         let springs = count(o.springs_skipped as usize, "spring", "springs");
         skipped.push(format!("{springs} needed by no island"));

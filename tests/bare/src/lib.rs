@@ -16,6 +16,7 @@ mod integrator;
 mod measuring;
 mod multigrid;
 mod preconditioned;
+mod sleeping;
 mod snapshots;
 mod stepping;
 mod system;

@@ -165,6 +165,10 @@ pub enum LevelPart {
 }
 
 impl<T: Real, N: AsMut<[f32]>, W: AsMut<[u32]>, D: Dispatch> Solver<T> for Multigrid<N, W, D> {
+    fn begin(&mut self) {
+        (self.place, self.spoilt) = (0, false);
+    }
+
     fn solve<F: Force<T>>(
         &mut self,
         problem: Problem<'_, '_, T, F>,

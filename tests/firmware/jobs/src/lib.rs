@@ -23,6 +23,7 @@ pub mod pin_release;
 pub mod point_force;
 pub mod point_spring;
 pub mod rope;
+pub mod sleeping;
 pub mod slices;
 pub mod snapshot;
 pub mod solvers;
@@ -82,4 +83,6 @@ pub static ALL: &[Job] = &[
     solvers::WIDE_F64,
     solvers::MULTIGRID_F32,
     solvers::MULTIGRID_F64,
+    sleeping::F32,
+    sleeping::F64,
 ];
