@@ -1,7 +1,7 @@
 //! The cycle: B ≈ A⁻¹, a fixed symmetric positive operator, in f32.
 //!
-//! On a level: two steps of Chebyshev-weighted block Jacobi, r ← Pᵀ(r − A x) one level down, two cycles there (a W), x ← x +
-//! ω P x_c, the same two steps. The coarsest level is solved by its factors or, if it has none, smoothed once more.
+//! On a level: Chebyshev-weighted block Jacobi, r ← Pᵀ(r − A x) one level down, two cycles there (a W), x ← x + ω P x_c, the
+//! same smoothing. The coarsest level is solved by its factors or, if it has none, smoothed once more.
 //!
 //! λ(D⁻¹A) ≤ 2 on every level, since an edge's [H −H; −H H] ⪯ 2 diag(H, H), and 2 is attained: hence the interval [1/3, 2].
 //! Smoothing contracts in the A-norm and is symmetric; I − ω P A_c⁻¹PᵀA too for 0 < ω < 2, and two cycles on a level leave
@@ -11,9 +11,10 @@
 //!
 //! Sources: Notay 2010; Adams, Brezina, Hu & Tuminaro 2003 (polynomial smoothing).
 
-use super::analysis::{LEVELS, UNKNOWNS};
+use super::sizes::{LEVELS, UNKNOWNS};
 use super::dense::Dense;
 use super::level::Level;
+use super::sweep::Stage;
 use crate::wide::Dispatch;
 
 /// Centre and half width of [1/3, 2].
@@ -28,6 +29,14 @@ const STEP: f32 = 2.0 * NEXT / HALF;
 /// ω
 const OVER: f32 = 1.5;
 
+/// From x = 0.
+const DOWN: [Stage; 3] = [Stage::Start(FIRST), Stage::Smooth(KEEP, STEP), Stage::Restrict];
+/// From an x whose last change is not yet in r.
+const DOWN_AGAIN: [Stage; 3] = [Stage::Smooth(0.0, FIRST), Stage::Smooth(KEEP, STEP), Stage::Restrict];
+const UP: [Stage; 3] = [Stage::Prolong(OVER), Stage::Smooth(0.0, FIRST), Stage::Smooth(KEEP, STEP)];
+/// Where there is no next level.
+const ONLY: [Stage; 2] = [Stage::Start(FIRST), Stage::Smooth(KEEP, STEP)];
+
 /// The levels of an island and the factors of the coarsest.
 pub(super) struct Hierarchy<'a> {
     pub(super) levels: [Option<Level<'a>>; LEVELS],
@@ -36,61 +45,28 @@ pub(super) struct Hierarchy<'a> {
 }
 
 impl Level<'_> {
-    /// Two steps from x and its residual r; leaves the residual before the second step's, and that step in d.
-    fn smooth_from_zero(&mut self, dispatch: impl Dispatch) {
-        self.start(dispatch, FIRST);
-        self.relax(dispatch, Some((KEEP, STEP)));
-    }
-
-    /// The same from an x whose last change d is not yet in r.
-    fn go_on(&mut self, dispatch: impl Dispatch) {
-        self.relax(dispatch, Some((0.0, FIRST)));
-        self.relax(dispatch, Some((KEEP, STEP)));
-    }
-
-    /// r of the next level = Pᵀr; its x = 0.
-    #[inline(never)]
-    fn restrict(&self, coarse: &mut Level<'_>) {
-        coarse.r.clear();
-        let [x, y, z] = &self.r.0;
-        let rows = x.iter().zip(y.iter()).zip(z.iter());
-        for (aggregate, ((x, y), z)) in self.pattern.aggregate.iter().zip(rows) {
-            coarse.r.add(*aggregate as usize, [*x, *y, *z]);
-        }
-    }
-
-    /// d = ω P x of the next level; x += d.
-    #[inline(never)]
-    fn prolong(&mut self, coarse: &Level<'_>) {
-        let ([dx, dy, dz], [x, y, z]) = (&mut self.d.0, &mut self.x.0);
-        let d = dx.iter_mut().zip(dy.iter_mut()).zip(dz.iter_mut());
-        let x = x.iter_mut().zip(y.iter_mut()).zip(z.iter_mut());
-        for (aggregate, (((dx, dy), dz), ((x, y), z))) in self.pattern.aggregate.iter().zip(d.zip(x)) {
-            let [cx, cy, cz] = coarse.x.at(*aggregate as usize);
-            (*dx, *dy, *dz) = (OVER * cx, OVER * cy, OVER * cz);
-            (*x, *y, *z) = (*x + *dx, *y + *dy, *z + *dz);
-        }
-    }
-
-    /// x = A⁻¹ r, or two steps towards it.
+    /// x = A⁻¹ r, or some steps towards it.
     fn solve(&mut self, dense: &Dense<'_>, dispatch: impl Dispatch) {
         if !dense.sound {
-            self.smooth_from_zero(dispatch);
+            self.sweep(None, &ONLY, dispatch);
             return;
         }
         let mut y = [0.0; UNKNOWNS];
         for (i, y) in y.as_chunks_mut::<3>().0.iter_mut().enumerate().take(self.pattern.size.rows) {
             *y = self.r.at(i);
         }
-        dense.solve(&mut y);
+        dispatch.run(
+            #[inline(always)]
+            || dense.solve(&mut y),
+        );
         for (i, y) in y.as_chunks::<3>().0.iter().enumerate().take(self.pattern.size.rows) {
-            self.x.set(i, *y);
+            self.x.put(i, *y);
         }
     }
 }
 
 impl<'a> Hierarchy<'a> {
-    /// x = B r on the finest level, where x comes in as zero.
+    /// x = B r on the finest level.
     pub(super) fn cycle(&mut self, dispatch: impl Dispatch) {
         let last = self.count.saturating_sub(1);
         // Bit l: level l is on its second cycle.
@@ -99,13 +75,8 @@ impl<'a> Hierarchy<'a> {
             // Down.
             while l < last {
                 let Some((fine, coarse)) = self.pair(l) else { return };
-                if second & (1 << l) == 0 {
-                    fine.smooth_from_zero(dispatch);
-                } else {
-                    fine.go_on(dispatch);
-                }
-                fine.relax(dispatch, None);
-                fine.restrict(coarse);
+                let stages = if second & (1 << l) == 0 { &DOWN } else { &DOWN_AGAIN };
+                fine.sweep(Some(coarse), stages, dispatch);
                 l += 1;
                 second &= !(1 << l);
             }
@@ -124,8 +95,7 @@ impl<'a> Hierarchy<'a> {
                 }
                 l -= 1;
                 let Some((fine, coarse)) = self.pair(l) else { return };
-                fine.prolong(coarse);
-                fine.go_on(dispatch);
+                fine.sweep(Some(coarse), &UP, dispatch);
             }
         }
     }

@@ -2,8 +2,10 @@
 //! a tile at a time. Zeros stand on and above the diagonal of L. A pivot that is not positive (f32 can round the matrix of
 //! a level to that) makes the level be smoothed instead.
 
-use super::analysis::UNKNOWNS;
-use super::tile::WIDTH;
+use super::sizes::UNKNOWNS;
+
+/// Numbers in a tile of a column.
+const WIDTH: usize = 8;
 
 /// Factors of a matrix of `unknowns`, a multiple of eight at most 72.
 pub(super) struct Dense<'a> {
@@ -41,6 +43,7 @@ impl<'a> Dense<'a> {
     }
 
     /// Factors in place. Right-looking: column k leaves the columns behind it.
+    #[inline(always)]
     pub(super) fn factor(&mut self) {
         self.sound = false;
         let n = self.unknowns;
@@ -78,7 +81,7 @@ impl<'a> Dense<'a> {
     }
 
     /// y ← A⁻¹ y
-    #[inline(never)]
+    #[inline(always)]
     pub(super) fn solve(&self, y: &mut [f32; UNKNOWNS]) {
         let columns = self.columns.get(..self.unknowns).unwrap_or_default();
         let y_tiles = self.unknowns.div_ceil(WIDTH);

@@ -8,14 +8,20 @@
 //! Cost per cycle: about ten products of the finest level in f32. Memory: see [`Multigrid::needs`].
 
 mod analysis;
+mod block;
 mod cycle;
 mod dense;
+mod diagonal;
+mod fingerprint;
 mod galerkin;
 mod level;
 mod matching;
+mod planes;
 mod preconditioner;
-mod relax;
+mod record;
 mod runs;
+mod sizes;
+mod sweep;
 mod tile;
 mod words;
 
@@ -27,8 +33,8 @@ use crate::solver::{Problem, Solver, Stop, pcg};
 use crate::system::System;
 use crate::vec3::Vec3;
 use crate::wide::{Dispatch, Portable};
-use analysis::DENSE;
 use preconditioner::Preconditioner;
+use sizes::DENSE;
 
 /// PCG with an aggregation-multigrid preconditioner, in a workspace of the caller's: arrays, borrowed slices, vectors.
 ///
@@ -66,8 +72,8 @@ impl Multigrid<(), ()> {
     pub const fn needs(particles: usize, springs: usize) -> (usize, usize) {
         // An island that is solved directly keeps nothing; of others there are n/25 at most. So much more than linear:
         let most = particles / (DENSE + 1);
-        let kept = analysis::words_kept(particles, springs) + most * analysis::words_kept(0, 0);
-        (analysis::numbers(particles, springs), kept + analysis::words_worked_in(particles, springs))
+        let kept = sizes::words_kept(particles, springs) + most * sizes::words_kept(0, 0);
+        (sizes::numbers(particles, springs), kept + sizes::words_worked_in(particles, springs))
     }
 }
 
@@ -93,8 +99,8 @@ impl<N: AsMut<[f32]>, W: AsMut<[u32]>, D: Dispatch> Multigrid<N, W, D> {
             (self.place, self.spoilt) = (0, false);
         }
         let (kept, worked_in) =
-            (analysis::words_kept(rows, springs), analysis::words_worked_in(rows, springs));
-        let numbers = analysis::numbers(rows, springs);
+            (sizes::words_kept(rows, springs), sizes::words_worked_in(rows, springs));
+        let numbers = sizes::numbers(rows, springs);
         let words = self.place + kept + worked_in;
         let short = StepError::Workspace { numbers, words };
         let pool = self.numbers.as_mut().get_mut(..numbers).ok_or(short)?;
@@ -110,8 +116,8 @@ impl<N: AsMut<[f32]>, W: AsMut<[u32]>, D: Dispatch> Multigrid<N, W, D> {
         if keeps {
             self.place += kept.len();
         }
-        let fingerprint = analysis::fingerprint(matrix.own, matrix.other);
-        let known = analysis::recall(kept, fingerprint, rows, springs).filter(|_| keeps && !self.spoilt);
+        let fingerprint = fingerprint::fingerprint(matrix.own, matrix.other);
+        let known = record::recall(kept, fingerprint, rows, springs).filter(|_| keeps && !self.spoilt);
         let shape = match known {
             Some(shape) => shape,
             None => {

@@ -2,11 +2,13 @@
 //! component, since f32 would lose a small one, and A divided by σ.
 
 use super::LevelPart;
-use super::analysis::{self, DENSE, LEVELS, Shape, UNKNOWNS};
 use super::cycle::Hierarchy;
 use super::dense::Dense;
 use super::galerkin;
 use super::level::Level;
+use super::record::{Shape, skip_record};
+use super::sizes::{DENSE, LEVELS, UNKNOWNS};
+use super::tile::WIDTH;
 use super::words::take;
 use crate::bound::square;
 use crate::force::Force;
@@ -46,26 +48,40 @@ impl<'a, T: Real, D: Dispatch> Preconditioner<'a, T, D> {
         mut kept: &'a mut [u32],
         mut pool: &'a mut [f32],
     ) -> Option<()> {
-        let slot_of = analysis::skip_record(&mut kept, system.matrix.other.len())?;
+        let slot_of = skip_record(&mut kept, system.matrix.other.len())?;
         self.scale = T::ONE / galerkin::largest(system);
         let Hierarchy { levels, count, dense } = &mut self.hierarchy;
         *count = shape.levels;
         let coarsest = shape.size.get(shape.levels.checked_sub(1)?)?.rows;
         *dense = Dense::new(take(&mut pool, UNKNOWNS * UNKNOWNS)?, coarsest);
         let mut finer: Option<&mut Level<'_>> = None;
+        let (scale, dispatch) = (self.scale, self.dispatch);
         for (level, size) in levels.iter_mut().zip(&shape.size).take(shape.levels) {
-            *level = Level::carve(&mut kept, &mut pool, *size);
+            *level = Level::carve(&mut kept, &mut pool, *size, finer.is_none());
             let level = level.as_mut()?;
             match finer {
-                None => level.fill(system, slot_of, self.scale),
-                Some(fine) => level.coarsen(fine),
+                None => dispatch.run(
+                    #[inline(always)]
+                    || level.fill(system, slot_of, scale),
+                ),
+                Some(fine) => dispatch.run(
+                    #[inline(always)]
+                    || level.coarsen(fine),
+                ),
             }
+            dispatch.run(
+                #[inline(always)]
+                || level.invert_diagonal(),
+            );
             finer = Some(level);
         }
         if let Some(coarsest) = finer.filter(|level| level.pattern.size.rows <= DENSE) {
             dense.clear();
             coarsest.each_block(|a, b, block| dense.add(a, b, block));
-            dense.factor();
+            dispatch.run(
+                #[inline(always)]
+                || dense.factor(),
+            );
         }
         Some(())
     }
@@ -82,13 +98,14 @@ impl<'a, T: Real, D: Dispatch> Preconditioner<'a, T, D> {
             return T::ZERO;
         }
         let [x, y, z_plane] = &mut finest.r.0;
-        for (((x, y), z), r) in x.iter_mut().zip(y.iter_mut()).zip(z_plane.iter_mut()).zip(r) {
+        let planes = x.iter_mut().zip(y.iter_mut()).zip(z_plane.iter_mut()).skip(WIDTH);
+        for (((x, y), z), r) in planes.zip(r) {
             [*x, *y, *z] = vec3::scale(down, *r).map(|r| r.to_f64() as f32);
         }
         self.hierarchy.cycle(self.dispatch);
         let Some(Some(finest)) = self.hierarchy.levels.first() else { return T::ZERO };
         let [x, y, z_plane] = &finest.x.0;
-        let solved = x.iter().zip(y.iter()).zip(z_plane.iter());
+        let solved = x.iter().zip(y.iter()).zip(z_plane.iter()).skip(WIDTH);
         for (i, ((z, r), ((x, y), z_of))) in z.iter_mut().zip(r).zip(solved).enumerate() {
             *z = vec3::scale(up, [*x, *y, *z_of].map(|x| T::from_f64(f64::from(x))));
             product.add(i, vec3::dot(*r, *z));

@@ -1,0 +1,284 @@
+//! What a cycle does on a level, in one sweep over its rows: the stages follow one another some rows apart, so that blocks and
+//! vectors are still in the nearest cache when the next stage needs them.
+//!
+//! Each row is its own sum: of its mass, run by run of what its edge to a higher row and its edge to a lower one do to it (so
+//! each edge's force is computed twice, which is cheaper than to scatter it), and of its held block. Loose edges come before
+//! all of that, and then every stage needs a sweep of its own.
+
+use super::block::{Full, Kind, Tied};
+use super::level::{Level, each_run, meet};
+use super::planes::{Planes, Planes6, cut, read, write};
+use super::runs::{Run, length};
+use super::tile::{WIDTH, add3, scale, sub3, symmetric};
+use crate::sym3::Sym3;
+use crate::vec3;
+use crate::wide::Dispatch;
+
+/// What is done to a row. d is the last change of x, which r does not know of yet.
+#[derive(Debug, Clone, Copy)]
+pub(super) enum Stage {
+    /// x = d = c D⁻¹r
+    Start(f32),
+    /// d = ω P x of the next level, x += d
+    Prolong(f32),
+    /// r −= A d; d = a d + c D⁻¹r, x += d
+    Smooth(f32, f32),
+    /// r −= A d; r of the next level += Pᵀr
+    Restrict,
+}
+
+/// At most so many stages in a sweep.
+const STAGES: usize = 8;
+/// Rows at a time.
+const BLOCK: usize = 128;
+
+impl Level<'_> {
+    /// All stages, in their order. The next level is read or written by those that name it.
+    #[inline(never)]
+    pub(super) fn sweep(&mut self, next: Option<&mut Level<'_>>, stages: &[Stage], dispatch: impl Dispatch) {
+        let mut none = [Planes([&mut [], &mut [], &mut []]), Planes([&mut [], &mut [], &mut []])];
+        let [x, r] = &mut none;
+        let (x, r) = match next {
+            Some(next) => (&mut next.x, &mut next.r),
+            None => (x, r),
+        };
+        if stages.iter().any(|stage| matches!(stage, Stage::Restrict)) {
+            r.clear();
+        }
+        if self.loose.is_empty() {
+            self.together(x, r, stages, dispatch);
+        } else {
+            for stage in stages {
+                if matches!(stage, Stage::Smooth(..) | Stage::Restrict) {
+                    self.subtract_loose();
+                }
+                self.together(x, r, core::slice::from_ref(stage), dispatch);
+            }
+        }
+        // Each stage that changes d leaves it in the other place.
+    }
+
+    #[inline(always)]
+    fn together(&mut self, x: &Planes<'_>, r: &mut Planes<'_>, stages: &[Stage], dispatch: impl Dispatch) {
+        if self.tied {
+            dispatch.run(
+                #[inline(always)]
+                || self.walk::<Tied>(x, r, stages),
+            );
+        } else {
+            dispatch.run(
+                #[inline(always)]
+                || self.walk::<Full>(x, r, stages),
+            );
+        }
+    }
+
+    #[inline(always)]
+    fn walk<K: Kind>(&mut self, coarse_x: &Planes<'_>, coarse_r: &mut Planes<'_>, stages: &[Stage]) {
+        let rows = self.pattern.size.rows.next_multiple_of(WIDTH);
+        let farthest = self.pattern.runs.iter().fold(0, |most, run| if run[1] > most { run[1] } else { most });
+        // A stage needs what the one before has left in all rows that edges lead to.
+        let lag = (farthest as usize).next_multiple_of(WIDTH) + WIDTH;
+        let mut held = [0; STAGES];
+        let Self { pattern, held_count, blocks, mass, held: held_blocks, inverse, x, r, d, .. } = self;
+        let held_rows = pattern.held_rows.get(..*held_count).unwrap_or_default();
+        let [even, odd] = d;
+        let mut end = BLOCK;
+        let last = rows + lag * stages.len().saturating_sub(1);
+        while end < last + BLOCK {
+            for ((number, stage), held) in stages.iter().enumerate().zip(&mut held) {
+                // Rows from i to here.
+                let to = end.saturating_sub(lag * number);
+                let i = to.saturating_sub(BLOCK);
+                let to = if to < rows { to } else { rows };
+                let n = to.saturating_sub(i);
+                if n == 0 {
+                    continue;
+                }
+                let (d, next) = if number % 2 == 0 { (&*even, &mut *odd) } else { (&*odd, &mut *even) };
+                match *stage {
+                    Stage::Start(c) => start(c, inverse, r, x, next, i, n),
+                    Stage::Prolong(over) => prolong(over, pattern.aggregate, coarse_x, x, next, i, n),
+                    Stage::Smooth(a, c) => {
+                        subtract::<K>(pattern.runs, blocks, d, mass, r, i, n);
+                        subtract_held(held_rows, held_blocks, held, i + n, d, r);
+                        smooth([a, c], inverse, r, d, x, next, i, n);
+                    }
+                    Stage::Restrict => {
+                        subtract::<K>(pattern.runs, blocks, d, mass, r, i, n);
+                        subtract_held(held_rows, held_blocks, held, i + n, d, r);
+                        scatter(pattern.aggregate, r, coarse_r, i, n);
+                    }
+                }
+            }
+            end += BLOCK;
+        }
+        let changes = stages.iter().filter(|stage| !matches!(stage, Stage::Restrict)).count();
+        if changes % 2 == 1 {
+            self.d.swap(0, 1);
+        }
+    }
+
+    fn subtract_loose(&mut self) {
+        let [a, b] = &self.pattern.loose;
+        let ends = a.as_chunks::<WIDTH>().0.iter().zip(b.as_chunks::<WIDTH>().0);
+        let [d, _] = &self.d;
+        for (tile, (a, b)) in self.loose.iter().zip(ends) {
+            let mut force = [[0.0; 3]; WIDTH];
+            for (force, (a, b)) in force.iter_mut().zip(a.iter().zip(b)) {
+                *force = vec3::sub(d.at(*a as usize), d.at(*b as usize));
+            }
+            let [xx, yy, zz, xy, xz, yz] = tile;
+            let blocks = xx.iter().zip(yy).zip(zz).zip(xy.iter().zip(xz).zip(yz));
+            for (force, (((xx, yy), zz), ((xy, xz), yz))) in force.iter_mut().zip(blocks) {
+                *force = Sym3([*xx, *yy, *zz, *xy, *xz, *yz]).mul(*force);
+            }
+            for (force, (a, b)) in force.iter().zip(a.iter().zip(b)) {
+                self.r.add(*a as usize, vec3::scale(-1.0, *force));
+                self.r.add(*b as usize, *force);
+            }
+        }
+    }
+}
+
+/// x = d = c D⁻¹r
+#[inline(always)]
+fn start(
+    c: f32,
+    inverse: &Planes6<'_>,
+    r: &Planes<'_>,
+    x: &mut Planes<'_>,
+    d: &mut Planes<'_>,
+    i: usize,
+    n: usize,
+) {
+    let at = i + WIDTH;
+    let solved = inverse.tiles(at, n).zip(r.tiles(at, n));
+    for ((inverse, r), (x, d)) in solved.zip(x.tiles_mut(at, n).zip(d.tiles_mut(at, n))) {
+        let change = scale([c; WIDTH], symmetric(inverse, r));
+        write(x, change);
+        write(d, change);
+    }
+}
+
+/// d = ω P x_c, x += d
+#[inline(always)]
+fn prolong(
+    over: f32,
+    aggregate: &[u32],
+    coarse: &Planes<'_>,
+    x: &mut Planes<'_>,
+    d: &mut Planes<'_>,
+    i: usize,
+    n: usize,
+) {
+    let aggregates = aggregate.get(i..).unwrap_or_default().iter().take(n);
+    for (k, aggregate) in aggregates.enumerate() {
+        d.put(i + k, coarse.at(*aggregate as usize));
+    }
+    let at = i + WIDTH;
+    for (x, d) in x.tiles_mut(at, n).zip(d.tiles_mut(at, n)) {
+        let change = scale([over; WIDTH], read(&d));
+        let moved = add3(read(&x), change);
+        write(x, moved);
+        write(d, change);
+    }
+}
+
+/// d = a d + c D⁻¹r, x += d
+#[inline(always)]
+fn smooth(
+    [a, c]: [f32; 2],
+    inverse: &Planes6<'_>,
+    r: &Planes<'_>,
+    d: &Planes<'_>,
+    x: &mut Planes<'_>,
+    next: &mut Planes<'_>,
+    i: usize,
+    n: usize,
+) {
+    let at = i + WIDTH;
+    let known = inverse.tiles(at, n).zip(r.tiles(at, n)).zip(d.tiles(at, n));
+    for (((inverse, r), d), (x, next)) in known.zip(x.tiles_mut(at, n).zip(next.tiles_mut(at, n))) {
+        let z = symmetric(inverse, r);
+        let change = add3(scale([a; WIDTH], d), scale([c; WIDTH], z));
+        let moved = add3(read(&x), change);
+        write(x, moved);
+        write(next, change);
+    }
+}
+
+/// r −= A d in n rows from i on, but for held rows and loose edges.
+#[inline(always)]
+fn subtract<K: Kind>(
+    runs: &[Run],
+    blocks: &[f32],
+    d: &Planes<'_>,
+    mass: &[f32],
+    r: &mut Planes<'_>,
+    i: usize,
+    n: usize,
+) {
+    let at = i + WIDTH;
+    for ((mass, d), r) in cut(mass, at, n).iter().zip(d.tiles(at, n)).zip(r.tiles_mut(at, n)) {
+        let left = sub3(read(&r), scale(*mass, d));
+        write(r, left);
+    }
+    each_run::<K>(
+        runs,
+        blocks,
+        #[inline(always)]
+        |run, numbers| {
+            let offset = run[1] as usize;
+            let [[up, up_place, up_rows], [down, down_place, down_rows]] = meet(run, i, n);
+            let length = length(run[2] as usize);
+            let upper = K::tiles(numbers, length, up_place, up_rows);
+            edges::<K>(upper, d, up + WIDTH, up + WIDTH + offset, up_rows, r);
+            let lower = K::tiles(numbers, length, down_place, down_rows);
+            edges::<K>(lower, d, down + WIDTH, (down + WIDTH).wrapping_sub(offset), down_rows, r);
+        },
+    );
+}
+
+/// −H (d − d') in n rows from a place on, d' from another.
+#[inline(always)]
+fn edges<K: Kind>(
+    blocks: impl Iterator<Item = K::Blocks>,
+    d: &Planes<'_>,
+    here: usize,
+    there: usize,
+    n: usize,
+    r: &mut Planes<'_>,
+) {
+    let apart = d.tiles(here, n).zip(d.tiles(there, n));
+    for ((blocks, (here, there)), r) in blocks.zip(apart).zip(r.tiles_mut(here, n)) {
+        let left = sub3(read(&r), K::times(blocks, sub3(here, there)));
+        write(r, left);
+    }
+}
+
+/// The held rows below `end` that have not been met; they are sorted.
+#[inline(always)]
+fn subtract_held(
+    rows: &[u32],
+    blocks: &[[f32; 6]],
+    next: &mut usize,
+    end: usize,
+    d: &Planes<'_>,
+    r: &mut Planes<'_>,
+) {
+    while let Some(row) = rows.get(*next).filter(|row| (**row as usize) < end) {
+        let i = *row as usize;
+        let held = Sym3(blocks.get(i).copied().unwrap_or_default()).mul(d.at(i));
+        r.add(i, vec3::scale(-1.0, held));
+        *next += 1;
+    }
+}
+
+/// Adds Pᵀr of n rows from i on.
+#[inline(always)]
+fn scatter(aggregate: &[u32], r: &Planes<'_>, coarse: &mut Planes<'_>, i: usize, n: usize) {
+    for (k, aggregate) in aggregate.get(i..).unwrap_or_default().iter().take(n).enumerate() {
+        coarse.add(*aggregate as usize, r.at(i + k));
+    }
+}
