@@ -48,11 +48,15 @@ pub(super) fn analyse<T: Real>(
         let sorted = sort(size.rows, input, order, other, first);
         let per_place = if finest { TIED } else { FULL };
         let mut count = 0;
-        size.extent = arrange(input, sorted, per_place, finest, SPARSE, |_| (), |_, _, new| count += usize::from(new));
+        size.extent =
+            arrange(input, sorted, per_place, finest, SPARSE, |_| (), |_, _, new| count += usize::from(new));
         all_rows += size.rows;
         all_edges += count;
         all_numbers += per_place * size.extent.places + FULL * WIDTH * size.extent.loose;
-        if all_rows > most_rows(rows) || all_edges > most_edges(springs) || all_numbers > most_numbers(springs) {
+        if all_rows > most_rows(rows)
+            || all_edges > most_edges(springs)
+            || all_numbers > most_numbers(springs)
+        {
             break;
         }
         // The edges, each once, with where it lies, and the springs' or the finer level's places.

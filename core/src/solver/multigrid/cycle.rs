@@ -11,9 +11,9 @@
 //!
 //! Sources: Notay 2010; Adams, Brezina, Hu & Tuminaro 2003 (polynomial smoothing).
 
-use super::sizes::{LEVELS, UNKNOWNS};
 use super::dense::Dense;
 use super::level::Level;
+use super::sizes::{LEVELS, UNKNOWNS};
 use super::sweep::Stage;
 use crate::wide::Dispatch;
 

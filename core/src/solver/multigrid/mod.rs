@@ -98,8 +98,7 @@ impl<N: AsMut<[f32]>, W: AsMut<[u32]>, D: Dispatch> Multigrid<N, W, D> {
         if matrix.rows.first == 0 {
             (self.place, self.spoilt) = (0, false);
         }
-        let (kept, worked_in) =
-            (sizes::words_kept(rows, springs), sizes::words_worked_in(rows, springs));
+        let (kept, worked_in) = (sizes::words_kept(rows, springs), sizes::words_worked_in(rows, springs));
         let numbers = sizes::numbers(rows, springs);
         let words = self.place + kept + worked_in;
         let short = StepError::Workspace { numbers, words };

@@ -6,7 +6,7 @@
 //! all of that, and then every stage needs a sweep of its own.
 
 use super::block::{Full, Kind, Tied};
-use super::level::{Level, each_run, meet};
+use super::level::{Level, each_run};
 use super::planes::{Planes, Planes6, cut, read, write};
 use super::runs::{Run, length};
 use super::tile::{WIDTH, add3, scale, sub3, symmetric};
@@ -55,7 +55,6 @@ impl Level<'_> {
                 self.together(x, r, core::slice::from_ref(stage), dispatch);
             }
         }
-        // Each stage that changes d leaves it in the other place.
     }
 
     #[inline(always)]
@@ -76,7 +75,8 @@ impl Level<'_> {
     #[inline(always)]
     fn walk<K: Kind>(&mut self, coarse_x: &Planes<'_>, coarse_r: &mut Planes<'_>, stages: &[Stage]) {
         let rows = self.pattern.size.rows.next_multiple_of(WIDTH);
-        let farthest = self.pattern.runs.iter().fold(0, |most, run| if run[1] > most { run[1] } else { most });
+        let farthest =
+            self.pattern.runs.iter().fold(0, |most, run| if run[1] > most { run[1] } else { most });
         // A stage needs what the one before has left in all rows that edges lead to.
         let lag = (farthest as usize).next_multiple_of(WIDTH) + WIDTH;
         let mut held = [0; STAGES];
@@ -113,6 +113,7 @@ impl Level<'_> {
             }
             end += BLOCK;
         }
+        // Each stage that changes d leaves it in the other place.
         let changes = stages.iter().filter(|stage| !matches!(stage, Stage::Restrict)).count();
         if changes % 2 == 1 {
             self.d.swap(0, 1);
@@ -172,9 +173,16 @@ fn prolong(
     i: usize,
     n: usize,
 ) {
-    let aggregates = aggregate.get(i..).unwrap_or_default().iter().take(n);
-    for (k, aggregate) in aggregates.enumerate() {
-        d.put(i + k, coarse.at(*aggregate as usize));
+    let [x_c, y_c, z_c] = &coarse.0;
+    let places = x_c.len();
+    let (Some(y_c), Some(z_c)) = (y_c.get(..places), z_c.get(..places)) else { return };
+    let [dx, dy, dz] = d.0.each_mut().map(|plane| plane.get_mut(i + WIDTH..).unwrap_or_default());
+    let rows = aggregate.get(i..).unwrap_or_default().iter().take(n);
+    for (((aggregate, a), b), c) in rows.zip(dx).zip(dy).zip(dz) {
+        let place = *aggregate as usize + WIDTH;
+        if let (Some(x), Some(y), Some(z)) = (x_c.get(place), y_c.get(place), z_c.get(place)) {
+            (*a, *b, *c) = (*x, *y, *z);
+        }
     }
     let at = i + WIDTH;
     for (x, d) in x.tiles_mut(at, n).zip(d.tiles_mut(at, n)) {
@@ -228,32 +236,42 @@ fn subtract<K: Kind>(
         runs,
         blocks,
         #[inline(always)]
-        |run, numbers| {
-            let offset = run[1] as usize;
-            let [[up, up_place, up_rows], [down, down_place, down_rows]] = meet(run, i, n);
-            let length = length(run[2] as usize);
-            let upper = K::tiles(numbers, length, up_place, up_rows);
-            edges::<K>(upper, d, up + WIDTH, up + WIDTH + offset, up_rows, r);
-            let lower = K::tiles(numbers, length, down_place, down_rows);
-            edges::<K>(lower, d, down + WIDTH, (down + WIDTH).wrapping_sub(offset), down_rows, r);
+        |[first, offset, tiles], numbers| {
+            let (first, offset, rows) = (first as usize, offset as usize, WIDTH * tiles as usize);
+            let begin = if i > first { i } else { first };
+            let end = if i + n < first + rows { i + n } else { first + rows };
+            let count = end.saturating_sub(begin);
+            let blocks =
+                K::tiles(numbers, length(tiles as usize), (begin + WIDTH).wrapping_sub(first), count);
+            edges::<K>(blocks, d, begin + WIDTH, offset, count, r);
         },
     );
 }
 
-/// −H (d − d') in n rows from a place on, d' from another.
+/// What n edges from a place on do to their lower ends, and then to their upper ones: their rows overlap, and a load that
+/// overlaps a store just before it would wait for it.
 #[inline(always)]
 fn edges<K: Kind>(
     blocks: impl Iterator<Item = K::Blocks>,
     d: &Planes<'_>,
-    here: usize,
-    there: usize,
+    at: usize,
+    offset: usize,
     n: usize,
     r: &mut Planes<'_>,
 ) {
-    let apart = d.tiles(here, n).zip(d.tiles(there, n));
-    for ((blocks, (here, there)), r) in blocks.zip(apart).zip(r.tiles_mut(here, n)) {
-        let left = sub3(read(&r), K::times(blocks, sub3(here, there)));
+    // In planes, too: x, y, z of one tile side by side tempt the compiler to shuffle them into wider registers.
+    let [mut fx, mut fy, mut fz] = [[[0.0; WIDTH]; BLOCK / WIDTH]; 3];
+    let ends = d.tiles(at, n).zip(d.tiles(at + offset, n));
+    let forces = fx.iter_mut().zip(&mut fy).zip(&mut fz);
+    for (((blocks, (lower, upper)), r), ((x, y), z)) in blocks.zip(ends).zip(r.tiles_mut(at, n)).zip(forces) {
+        let force = K::times(blocks, sub3(lower, upper));
+        [*x, *y, *z] = force;
+        let left = sub3(read(&r), force);
         write(r, left);
+    }
+    for (r, ((x, y), z)) in r.tiles_mut(at + offset, n).zip(fx.iter().zip(&fy).zip(&fz)) {
+        let sum = add3(read(&r), [*x, *y, *z]);
+        write(r, sum);
     }
 }
 
@@ -278,7 +296,16 @@ fn subtract_held(
 /// Adds Pᵀr of n rows from i on.
 #[inline(always)]
 fn scatter(aggregate: &[u32], r: &Planes<'_>, coarse: &mut Planes<'_>, i: usize, n: usize) {
-    for (k, aggregate) in aggregate.get(i..).unwrap_or_default().iter().take(n).enumerate() {
-        coarse.add(*aggregate as usize, r.at(i + k));
+    let [x, y, z] = &mut coarse.0;
+    // Of one length, so that one comparison does for all three.
+    let places = x.len();
+    let (Some(y), Some(z)) = (y.get_mut(..places), z.get_mut(..places)) else { return };
+    let [from_x, from_y, from_z] = r.0.each_ref().map(|plane| plane.get(i + WIDTH..).unwrap_or_default());
+    let rows = aggregate.get(i..).unwrap_or_default().iter().take(n);
+    for (((aggregate, a), b), c) in rows.zip(from_x).zip(from_y).zip(from_z) {
+        let place = *aggregate as usize + WIDTH;
+        if let (Some(x), Some(y), Some(z)) = (x.get_mut(place), y.get_mut(place), z.get_mut(place)) {
+            (*x, *y, *z) = (*x + a, *y + b, *z + c);
+        }
     }
 }
