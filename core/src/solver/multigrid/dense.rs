@@ -3,9 +3,7 @@
 //! a level to that) makes the level be smoothed instead.
 
 use super::sizes::UNKNOWNS;
-
-/// Numbers in a tile of a column.
-const WIDTH: usize = 8;
+use super::tile::{WIDTH, add, mul, sub};
 
 /// Factors of a matrix of `unknowns`, a multiple of eight at most 72.
 pub(super) struct Dense<'a> {
@@ -64,9 +62,7 @@ impl<'a> Dense<'a> {
                 let factor = column.get(k + 1 + j).copied().unwrap_or(0.0) * inverse;
                 let tiles = later.as_chunks_mut::<WIDTH>().0.iter_mut().zip(column.as_chunks::<WIDTH>().0);
                 for (later, column) in tiles.skip(from) {
-                    for (later, column) in later.iter_mut().zip(column) {
-                        *later -= factor * column;
-                    }
+                    *later = sub(*later, mul([factor; WIDTH], *column));
                 }
             }
             for entry in column.iter_mut() {
@@ -89,9 +85,7 @@ impl<'a> Dense<'a> {
             let value = y.get(k).copied().unwrap_or(0.0);
             let tiles = y.as_chunks_mut::<WIDTH>().0.iter_mut().zip(column.as_chunks::<WIDTH>().0);
             for (y, column) in tiles.take(y_tiles).skip((k + 1) / WIDTH) {
-                for (y, column) in y.iter_mut().zip(column) {
-                    *y -= value * column;
-                }
+                *y = sub(*y, mul([value; WIDTH], *column));
             }
         }
         for (y, inverse) in y.iter_mut().zip(&self.inverse) {
@@ -101,9 +95,7 @@ impl<'a> Dense<'a> {
             let mut sums = [0.0; WIDTH];
             let tiles = y.as_chunks::<WIDTH>().0.iter().zip(column.as_chunks::<WIDTH>().0);
             for (y, column) in tiles.take(y_tiles).skip((k + 1) / WIDTH) {
-                for (sum, (y, column)) in sums.iter_mut().zip(y.iter().zip(column)) {
-                    *sum += y * column;
-                }
+                sums = add(sums, mul(*y, *column));
             }
             let [a, b, c, d, e, f, g, h] = sums;
             if let Some(y) = y.get_mut(k) {

@@ -8,7 +8,7 @@ use super::level::Level;
 use super::planes::Planes;
 use super::runs::{LOOSE, length};
 use super::tile::{Tile6, WIDTH};
-use super::words::{get, set};
+use super::words::{NONE, get, set};
 use crate::force::Force;
 use crate::hessian::Hessian;
 use crate::real::{Real, larger};
@@ -115,14 +115,18 @@ impl Level<'_> {
         let rows = self.pattern.size.rows;
         let mut strides = Strides::new(self.pattern.runs, TIED);
         let mut slots = slot_of.iter();
-        let mut held = false;
+        let mut last_held = NONE;
         system.each_spring(
             #[inline(always)]
             |row, other, h| {
                 let place = slots.next().copied().unwrap_or(LOOSE) as usize;
                 let h = tied(h, scale, root);
                 if other >= rows {
-                    held = true;
+                    if row as u32 != last_held {
+                        last_held = row as u32;
+                        set(self.pattern.held_rows, self.held_count, last_held);
+                        self.held_count += 1;
+                    }
                     add_to_row(self.held, row, matrix(h));
                 } else if place & LOOSE as usize == 0 {
                     let stride = strides.of(place);
@@ -136,11 +140,12 @@ impl Level<'_> {
                 }
             },
         );
+        let mut points = false;
         system.each_point(|row, h| {
-            held = true;
+            points = true;
             add_to_row(self.held, row, matrix(tied(h, scale, root)));
         });
-        if held {
+        if points {
             self.list_held();
         }
     }

@@ -1,9 +1,12 @@
 //! What a cycle does on a level, in one sweep over its rows: the stages follow one another some rows apart, so that blocks and
 //! vectors are still in the nearest cache when the next stage needs them.
 //!
-//! Each row is its own sum: of its mass, run by run of what its edge to a higher row and its edge to a lower one do to it (so
-//! each edge's force is computed twice, which is cheaper than to scatter it), and of its held block. Loose edges come before
-//! all of that, and then every stage needs a sweep of its own.
+//! Edges go from a row to higher ones only. So once the edges of a block of rows are done, these rows' r is complete and their
+//! d needed no more. The order of the sums (it makes the bits): loose edges, then block by block masses, runs by offset, and
+//! held rows. With loose edges every stage needs a sweep of its own.
+//!
+//! Measured and not kept: each row gathering both of its edges of a run, so that nothing is scattered and an edge's force is
+//! computed twice: a cycle on cloth:64 took 161 µs instead of 134. Tiles of 32 rows whose sums wait on the stack: 219 µs.
 
 use super::block::{Full, Kind, Tied};
 use super::level::{Level, each_run};
@@ -96,19 +99,15 @@ impl Level<'_> {
                     continue;
                 }
                 let (d, next) = if number % 2 == 0 { (&*even, &mut *odd) } else { (&*odd, &mut *even) };
+                if matches!(stage, Stage::Smooth(..) | Stage::Restrict) {
+                    subtract::<K>(pattern.runs, blocks, d, mass, r, next, i, n);
+                    subtract_held(held_rows, held_blocks, held, i + n, d, r);
+                }
                 match *stage {
                     Stage::Start(c) => start(c, inverse, r, x, next, i, n),
                     Stage::Prolong(over) => prolong(over, pattern.aggregate, coarse_x, x, next, i, n),
-                    Stage::Smooth(a, c) => {
-                        subtract::<K>(pattern.runs, blocks, d, mass, r, i, n);
-                        subtract_held(held_rows, held_blocks, held, i + n, d, r);
-                        smooth([a, c], inverse, r, d, x, next, i, n);
-                    }
-                    Stage::Restrict => {
-                        subtract::<K>(pattern.runs, blocks, d, mass, r, i, n);
-                        subtract_held(held_rows, held_blocks, held, i + n, d, r);
-                        scatter(pattern.aggregate, r, coarse_r, i, n);
-                    }
+                    Stage::Smooth(a, c) => smooth([a, c], inverse, r, d, x, next, i, n),
+                    Stage::Restrict => scatter(pattern.aggregate, r, coarse_r, i, n),
                 }
             }
             end += BLOCK;
@@ -216,7 +215,8 @@ fn smooth(
     }
 }
 
-/// r −= A d in n rows from i on, but for held rows and loose edges.
+/// r −= A d in n rows from i on, but for held rows and loose edges; of r of higher rows what edges from here do to it.
+/// These rows of `forces` are scratch.
 #[inline(always)]
 fn subtract<K: Kind>(
     runs: &[Run],
@@ -224,6 +224,7 @@ fn subtract<K: Kind>(
     d: &Planes<'_>,
     mass: &[f32],
     r: &mut Planes<'_>,
+    forces: &mut Planes<'_>,
     i: usize,
     n: usize,
 ) {
@@ -240,39 +241,25 @@ fn subtract<K: Kind>(
             let (first, offset, rows) = (first as usize, offset as usize, WIDTH * tiles as usize);
             let begin = if i > first { i } else { first };
             let end = if i + n < first + rows { i + n } else { first + rows };
-            let count = end.saturating_sub(begin);
-            let blocks =
-                K::tiles(numbers, length(tiles as usize), (begin + WIDTH).wrapping_sub(first), count);
-            edges::<K>(blocks, d, begin + WIDTH, offset, count, r);
+            let n = end.saturating_sub(begin);
+            let at = begin + WIDTH;
+            // What edges do to their lower ends, and then to their upper ones: their rows overlap, and a load that overlaps a
+            // store just before it would wait for it.
+            let blocks = K::tiles(numbers, length(tiles as usize), at.wrapping_sub(first), n);
+            let ends = d.tiles(at, n).zip(d.tiles(at + offset, n));
+            let rows = r.tiles_mut(at, n).zip(forces.tiles_mut(at, n));
+            for ((blocks, (lower, upper)), (r, force)) in blocks.zip(ends).zip(rows) {
+                let pull = K::times(blocks, sub3(lower, upper));
+                let left = sub3(read(&r), pull);
+                write(r, left);
+                write(force, pull);
+            }
+            for (r, force) in r.tiles_mut(at + offset, n).zip(forces.tiles(at, n)) {
+                let sum = add3(read(&r), force);
+                write(r, sum);
+            }
         },
     );
-}
-
-/// What n edges from a place on do to their lower ends, and then to their upper ones: their rows overlap, and a load that
-/// overlaps a store just before it would wait for it.
-#[inline(always)]
-fn edges<K: Kind>(
-    blocks: impl Iterator<Item = K::Blocks>,
-    d: &Planes<'_>,
-    at: usize,
-    offset: usize,
-    n: usize,
-    r: &mut Planes<'_>,
-) {
-    // In planes, too: x, y, z of one tile side by side tempt the compiler to shuffle them into wider registers.
-    let [mut fx, mut fy, mut fz] = [[[0.0; WIDTH]; BLOCK / WIDTH]; 3];
-    let ends = d.tiles(at, n).zip(d.tiles(at + offset, n));
-    let forces = fx.iter_mut().zip(&mut fy).zip(&mut fz);
-    for (((blocks, (lower, upper)), r), ((x, y), z)) in blocks.zip(ends).zip(r.tiles_mut(at, n)).zip(forces) {
-        let force = K::times(blocks, sub3(lower, upper));
-        [*x, *y, *z] = force;
-        let left = sub3(read(&r), force);
-        write(r, left);
-    }
-    for (r, ((x, y), z)) in r.tiles_mut(at + offset, n).zip(fx.iter().zip(&fy).zip(&fz)) {
-        let sum = add3(read(&r), [*x, *y, *z]);
-        write(r, sum);
-    }
 }
 
 /// The held rows below `end` that have not been met; they are sorted.
