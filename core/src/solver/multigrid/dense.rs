@@ -4,6 +4,7 @@
 
 use super::sizes::UNKNOWNS;
 use super::tile::{WIDTH, add, mul, sub};
+use crate::wide::Dispatch;
 
 /// Factors of a matrix of `unknowns`, a multiple of eight at most 72.
 pub(super) struct Dense<'a> {
@@ -40,9 +41,18 @@ impl<'a> Dense<'a> {
         }
     }
 
-    /// Factors in place. Right-looking: column k leaves the columns behind it.
+    /// Factors in place.
+    #[inline(never)]
+    pub(super) fn factor(&mut self, dispatch: impl Dispatch) {
+        dispatch.run(
+            #[inline(always)]
+            || self.factor_in_lanes(),
+        );
+    }
+
+    /// Right-looking: column k leaves the columns behind it.
     #[inline(always)]
-    pub(super) fn factor(&mut self) {
+    fn factor_in_lanes(&mut self) {
         self.sound = false;
         let n = self.unknowns;
         let mut rest = self.columns.get_mut(..n).unwrap_or_default();
@@ -77,8 +87,16 @@ impl<'a> Dense<'a> {
     }
 
     /// y ← A⁻¹ y
+    #[inline(never)]
+    pub(super) fn solve(&self, y: &mut [f32; UNKNOWNS], dispatch: impl Dispatch) {
+        dispatch.run(
+            #[inline(always)]
+            || self.solve_in_lanes(y),
+        );
+    }
+
     #[inline(always)]
-    pub(super) fn solve(&self, y: &mut [f32; UNKNOWNS]) {
+    fn solve_in_lanes(&self, y: &mut [f32; UNKNOWNS]) {
         let columns = self.columns.get(..self.unknowns).unwrap_or_default();
         let y_tiles = self.unknowns.div_ceil(WIDTH);
         for (k, column) in columns.iter().enumerate() {

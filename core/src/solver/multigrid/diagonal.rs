@@ -7,16 +7,22 @@ use super::planes::{Planes6, cut};
 use super::runs::length;
 use super::tile::{Tile, Tile6, WIDTH, add, mul, sub};
 use crate::real::larger;
+use crate::wide::Dispatch;
 
 impl Level<'_> {
     /// Finds them.
-    #[inline(always)]
-    pub(super) fn invert_diagonal(&mut self) {
-        if self.tied {
-            self.invert_of::<Tied>();
-        } else {
-            self.invert_of::<Full>();
-        }
+    #[inline(never)]
+    pub(super) fn invert_diagonal(&mut self, dispatch: impl Dispatch) {
+        dispatch.run(
+            #[inline(always)]
+            || {
+                if self.tied {
+                    self.invert_of::<Tied>();
+                } else {
+                    self.invert_of::<Full>();
+                }
+            },
+        );
     }
 
     #[inline(always)]

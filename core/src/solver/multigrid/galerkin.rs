@@ -100,7 +100,7 @@ impl Level<'_> {
     }
 
     /// The finest level, 1/σ = `scale`.
-    #[inline(always)]
+    #[inline(never)]
     pub(super) fn fill<T: Real, F: Force<T>>(
         &mut self,
         system: &System<'_, T, F>,
@@ -151,7 +151,7 @@ impl Level<'_> {
     }
 
     /// Pᵀ`fine`P
-    #[inline(always)]
+    #[inline(never)]
     pub(super) fn coarsen(&mut self, fine: &Level<'_>) {
         self.clear();
         let pattern = &fine.pattern;

@@ -60,28 +60,16 @@ impl<'a, T: Real, D: Dispatch> Preconditioner<'a, T, D> {
             *level = Level::carve(&mut kept, &mut pool, *size, finer.is_none());
             let level = level.as_mut()?;
             match finer {
-                None => dispatch.run(
-                    #[inline(always)]
-                    || level.fill(system, slot_of, scale),
-                ),
-                Some(fine) => dispatch.run(
-                    #[inline(always)]
-                    || level.coarsen(fine),
-                ),
+                None => level.fill(system, slot_of, scale),
+                Some(fine) => level.coarsen(fine),
             }
-            dispatch.run(
-                #[inline(always)]
-                || level.invert_diagonal(),
-            );
+            level.invert_diagonal(dispatch);
             finer = Some(level);
         }
         if let Some(coarsest) = finer.filter(|level| level.pattern.size.rows <= DENSE) {
             dense.clear();
             coarsest.each_block(|a, b, block| dense.add(a, b, block));
-            dispatch.run(
-                #[inline(always)]
-                || dense.factor(),
-            );
+            dense.factor(dispatch);
         }
         Some(())
     }
