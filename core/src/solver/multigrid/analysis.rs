@@ -48,11 +48,27 @@ pub(super) fn analyse<T: Real>(
         let sorted = sort(size.rows, input, order, other, first);
         let per_place = if finest { TIED } else { FULL };
         let mut count = 0;
-        size.extent =
-            arrange(input, sorted, per_place, finest, SPARSE, |_| (), |_, _, new| count += usize::from(new));
+        // Runs if there is room for them; if not, loose edges, which take least.
+        let (mut sparse, mut level_numbers) = (SPARSE, 0);
+        for limit in [SPARSE, 0] {
+            (sparse, count) = (limit, 0);
+            size.extent = arrange(
+                input,
+                sorted,
+                per_place,
+                finest,
+                limit,
+                |_| (),
+                |_, _, new| count += usize::from(new),
+            );
+            level_numbers = per_place * size.extent.places + FULL * WIDTH * size.extent.loose;
+            if all_numbers + level_numbers <= most_numbers(springs) {
+                break;
+            }
+        }
         all_rows += size.rows;
         all_edges += count;
-        all_numbers += per_place * size.extent.places + FULL * WIDTH * size.extent.loose;
+        all_numbers += level_numbers;
         if all_rows > most_rows(rows)
             || all_edges > most_edges(springs)
             || all_numbers > most_numbers(springs)
@@ -63,76 +79,21 @@ pub(super) fn analyse<T: Real>(
         size.cross = 0;
         let mut whole = &mut *kept;
         let mut pattern = Pattern::carve(&mut whole, size)?;
-        places.fill(NONE);
-        let [loose_a, loose_b] = &mut pattern.loose;
-        loose_a.fill(NONE);
-        loose_b.fill(NONE);
-        let mut runs = pattern.runs.iter_mut();
-        let mut last = 0;
-        arrange(
-            input,
-            sorted,
-            per_place,
-            finest,
-            SPARSE,
-            |run| {
-                if let Some(place) = runs.next() {
-                    *place = run;
-                }
-            },
-            |edge, place, new| {
-                let edge = edge as usize;
-                let (a, b) = (get(input[0], edge), get(input[1], edge));
-                last += usize::from(new);
-                let weight = weight.get(edge).copied().unwrap_or(0.0);
-                if let Some(sum) = joint_weight.get_mut(last - 1) {
-                    *sum = if new { weight } else { *sum + weight };
-                }
-                set(joint[0], last - 1, a);
-                set(joint[1], last - 1, b);
-                set(from, last - 1, place);
-                set(places, edge, place);
-                if place & LOOSE != 0 {
-                    set(loose_a, (place & !LOOSE) as usize, a);
-                    set(loose_b, (place & !LOOSE) as usize, b);
-                }
-            },
-        );
+        let list = Joint { ends: &mut joint, weight: joint_weight, place: from };
+        lay_out(input, (sorted, sparse), weight, finest, &mut pattern, places, list);
         shape.levels += 1;
         let pairs = [joint[0].get(..count)?, joint[1].get(..count)?];
         let coarse = if size.rows <= DENSE {
             size.rows
         } else {
-            let [group, next, taken] = &mut lists.each_mut();
-            let mut lists = matching::Scratch {
-                first: first.get_mut(..size.rows + 1)?,
-                touching: touching.get_mut(..2 * count)?,
-                group: group.get_mut(..size.rows)?,
-                next: next.get_mut(..size.rows)?,
-                taken: taken.get_mut(..size.rows)?,
-                tie: tie.get_mut(..size.rows)?,
-            };
-            aggregate(PASSES, pairs, joint_weight, pattern.aggregate, &mut lists)
+            let touching = touching.get_mut(..2 * count)?;
+            group(pairs, joint_weight, pattern.aggregate, touching, first, &mut lists, tie)?
         };
         if 3 * coarse > 2 * size.rows {
             *kept_size = size;
             break;
         }
-        // Edges between aggregates, which are the next level's.
-        edges = 0;
-        for (k, (a, b)) in pairs[0].iter().zip(pairs[1]).enumerate() {
-            let [a, b] = [*a, *b].map(|row| get(pattern.aggregate, row as usize));
-            if a != b {
-                let (low, high) = if a < b { (a, b) } else { (b, a) };
-                set(ends[0], edges, low);
-                set(ends[1], edges, high);
-                if let Some(place) = weight.get_mut(edges) {
-                    *place = joint_weight.get(k).copied().unwrap_or(0.0);
-                }
-                set(from, edges, get(from, k));
-                edges += 1;
-            }
-        }
+        edges = between(pairs, joint_weight, pattern.aggregate, &mut ends, weight, from);
         size.cross = edges;
         *kept_size = size;
         let pattern = Pattern::carve(&mut kept, size)?;
@@ -144,6 +105,108 @@ pub(super) fn analyse<T: Real>(
     }
     remember(record, fingerprint, springs, &shape);
     Some(shape)
+}
+
+/// A level's edges, each once.
+struct Joint<'j, 's> {
+    ends: &'j mut [&'s mut [u32]; 2],
+    weight: &'j mut [f32],
+    place: &'j mut [u32],
+}
+
+/// Writes a level's runs and loose ends, the place of every edge that comes in, and the list of its edges.
+fn lay_out(
+    [a, b]: [&[u32]; 2],
+    (sorted, sparse): (&[u32], usize),
+    weight: &[f32],
+    finest: bool,
+    pattern: &mut Pattern<'_>,
+    places: &mut [u32],
+    list: Joint<'_, '_>,
+) {
+    let Pattern { runs, loose: [loose_a, loose_b], .. } = pattern;
+    places.fill(NONE);
+    loose_a.fill(NONE);
+    loose_b.fill(NONE);
+    let mut runs = runs.iter_mut();
+    let mut last = NONE as usize;
+    arrange(
+        [a, b],
+        sorted,
+        if finest { TIED } else { FULL },
+        finest,
+        sparse,
+        |run| {
+            if let Some(place) = runs.next() {
+                *place = run;
+            }
+        },
+        |edge, place, new| {
+            let edge = edge as usize;
+            let (a, b) = (get(a, edge), get(b, edge));
+            last = if last == NONE as usize { 0 } else { last + usize::from(new) };
+            let weight = weight.get(edge).copied().unwrap_or(0.0);
+            if let Some(sum) = list.weight.get_mut(last) {
+                *sum = if new { weight } else { *sum + weight };
+            }
+            set(list.ends[0], last, a);
+            set(list.ends[1], last, b);
+            set(list.place, last, place);
+            set(places, edge, place);
+            if place & LOOSE != 0 {
+                set(loose_a, (place & !LOOSE) as usize, a);
+                set(loose_b, (place & !LOOSE) as usize, b);
+            }
+        },
+    );
+}
+
+/// Puts rows together; answers how many aggregates there are.
+fn group(
+    pairs: [&[u32]; 2],
+    weight: &[f32],
+    aggregates: &mut [u32],
+    touching: &mut [u32],
+    first: &mut [u32],
+    [group, next, taken]: &mut [&mut [u32]; 3],
+    tie: &mut [f32],
+) -> Option<usize> {
+    let rows = aggregates.len();
+    let mut lists = matching::Scratch {
+        first: first.get_mut(..rows + 1)?,
+        touching,
+        group: group.get_mut(..rows)?,
+        next: next.get_mut(..rows)?,
+        taken: taken.get_mut(..rows)?,
+        tie: tie.get_mut(..rows)?,
+    };
+    Some(aggregate(PASSES, pairs, weight, aggregates, &mut lists))
+}
+
+/// The edges between aggregates, which are the next level's: their ends and weights, and in front of `from` where they lie.
+fn between(
+    pairs: [&[u32]; 2],
+    joint_weight: &[f32],
+    aggregates: &[u32],
+    ends: &mut [&mut [u32]; 2],
+    weight: &mut [f32],
+    from: &mut [u32],
+) -> usize {
+    let mut edges = 0;
+    for (k, (a, b)) in pairs[0].iter().zip(pairs[1]).enumerate() {
+        let [a, b] = [*a, *b].map(|row| get(aggregates, row as usize));
+        if a != b {
+            let (low, high) = if a < b { (a, b) } else { (b, a) };
+            set(ends[0], edges, low);
+            set(ends[1], edges, high);
+            if let Some(place) = weight.get_mut(edges) {
+                *place = joint_weight.get(k).copied().unwrap_or(0.0);
+            }
+            set(from, edges, get(from, k));
+            edges += 1;
+        }
+    }
+    edges
 }
 
 /// The ends of the springs between two rows, the lower first; NONE where a spring ends at a pin.

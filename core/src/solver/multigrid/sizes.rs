@@ -13,6 +13,16 @@ pub(super) const DENSE: usize = 24;
 /// Unknowns of the largest dense matrix.
 pub(super) const UNKNOWNS: usize = 3 * DENSE;
 
+/// Levels of an island: each has two thirds of the rows before it at most.
+const fn most_levels(rows: usize) -> usize {
+    let (mut levels, mut rest) = (1, rows);
+    while rest > DENSE && levels < LEVELS {
+        rest = rest * 2 / 3;
+        levels += 1;
+    }
+    levels
+}
+
 /// Rows of all levels of an island.
 pub(super) const fn most_rows(rows: usize) -> usize {
     rows + rows / 2 + 8
@@ -25,13 +35,22 @@ pub(super) const fn most_edges(springs: usize) -> usize {
 
 /// Numbers of the blocks of all levels of an island.
 pub(super) const fn most_numbers(springs: usize) -> usize {
-    FULL * (2 * most_edges(springs) + LEVELS * WIDTH)
+    FULL * (most_edges(springs) + LEVELS * WIDTH)
 }
 
 /// Words that an island keeps.
 pub(super) const fn words_kept(rows: usize, springs: usize) -> usize {
-    // A loose edge has its ends, a run six edges or more; from and to.
-    RECORD + springs + 4 * most_edges(springs) + LEVELS * 2 * (WIDTH - 1) + 2 * most_rows(rows)
+    // A loose edge has its ends, a run four edges or more; from and to.
+    let loose = most_levels(rows) * 2 * (WIDTH - 1);
+    RECORD + springs + 4 * most_edges(springs) + loose + 2 * most_rows(rows)
+}
+
+/// Words that the islands of a scene keep.
+pub(super) const fn words_kept_by_all(rows: usize, springs: usize) -> usize {
+    // One that is solved directly keeps nothing; of others there are n/25 at most. The smallest have two levels, and larger
+    // ones fewer levels per row.
+    let smallest = words_kept(DENSE + 1, 0) - 2 * (most_rows(DENSE + 1) - most_rows(0));
+    words_kept(rows, springs) + rows / (DENSE + 1) * smallest
 }
 
 /// Words that the analysis of an island works in.
@@ -41,8 +60,9 @@ pub(super) const fn words_worked_in(rows: usize, springs: usize) -> usize {
 
 /// Numbers that an island works in.
 pub(super) const fn numbers(rows: usize, springs: usize) -> usize {
-    // Rows of all levels, and what each level has once.
-    let levels = level::numbers(most_rows(rows)) + (LEVELS - 1) * level::numbers(0) + most_numbers(springs);
+    // Rows of all levels, and what each level has once and to fill its last tile up.
+    let once = (most_levels(rows) - 1) * level::numbers(WIDTH - 1);
+    let levels = level::numbers(most_rows(rows)) + once + most_numbers(springs);
     let weights = rows + 2 * springs;
     UNKNOWNS * UNKNOWNS + if levels > weights { levels } else { weights }
 }

@@ -100,14 +100,14 @@ impl Level<'_> {
                 }
                 let (d, next) = if number % 2 == 0 { (&*even, &mut *odd) } else { (&*odd, &mut *even) };
                 if matches!(stage, Stage::Smooth(..) | Stage::Restrict) {
-                    subtract::<K>(pattern.runs, blocks, d, mass, r, next, i, n);
+                    subtract::<K>(pattern.runs, blocks, d, mass, r, next, [i, n]);
                     subtract_held(held_rows, held_blocks, held, i + n, d, r);
                 }
                 match *stage {
-                    Stage::Start(c) => start(c, inverse, r, x, next, i, n),
-                    Stage::Prolong(over) => prolong(over, pattern.aggregate, coarse_x, x, next, i, n),
-                    Stage::Smooth(a, c) => smooth([a, c], inverse, r, d, x, next, i, n),
-                    Stage::Restrict => scatter(pattern.aggregate, r, coarse_r, i, n),
+                    Stage::Start(c) => start(c, inverse, r, x, next, [i, n]),
+                    Stage::Prolong(over) => prolong(over, pattern.aggregate, coarse_x, x, next, [i, n]),
+                    Stage::Smooth(a, c) => smooth([a, c], inverse, r, d, x, next, [i, n]),
+                    Stage::Restrict => scatter(pattern.aggregate, r, coarse_r, [i, n]),
                 }
             }
             end += BLOCK;
@@ -149,8 +149,7 @@ fn start(
     r: &Planes<'_>,
     x: &mut Planes<'_>,
     d: &mut Planes<'_>,
-    i: usize,
-    n: usize,
+    [i, n]: [usize; 2],
 ) {
     let at = i + WIDTH;
     let solved = inverse.tiles(at, n).zip(r.tiles(at, n));
@@ -169,8 +168,7 @@ fn prolong(
     coarse: &Planes<'_>,
     x: &mut Planes<'_>,
     d: &mut Planes<'_>,
-    i: usize,
-    n: usize,
+    [i, n]: [usize; 2],
 ) {
     let [x_c, y_c, z_c] = &coarse.0;
     let places = x_c.len();
@@ -201,8 +199,7 @@ fn smooth(
     d: &Planes<'_>,
     x: &mut Planes<'_>,
     next: &mut Planes<'_>,
-    i: usize,
-    n: usize,
+    [i, n]: [usize; 2],
 ) {
     let at = i + WIDTH;
     let known = inverse.tiles(at, n).zip(r.tiles(at, n)).zip(d.tiles(at, n));
@@ -225,8 +222,7 @@ fn subtract<K: Kind>(
     mass: &[f32],
     r: &mut Planes<'_>,
     forces: &mut Planes<'_>,
-    i: usize,
-    n: usize,
+    [i, n]: [usize; 2],
 ) {
     let at = i + WIDTH;
     for ((mass, d), r) in cut(mass, at, n).iter().zip(d.tiles(at, n)).zip(r.tiles_mut(at, n)) {
@@ -282,7 +278,7 @@ fn subtract_held(
 
 /// Adds Pᵀr of n rows from i on.
 #[inline(always)]
-fn scatter(aggregate: &[u32], r: &Planes<'_>, coarse: &mut Planes<'_>, i: usize, n: usize) {
+fn scatter(aggregate: &[u32], r: &Planes<'_>, coarse: &mut Planes<'_>, [i, n]: [usize; 2]) {
     let [x, y, z] = &mut coarse.0;
     // Of one length, so that one comparison does for all three.
     let places = x.len();
