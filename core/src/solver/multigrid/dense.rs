@@ -2,8 +2,9 @@
 //! a tile at a time. Zeros stand on and above the diagonal of L. A pivot that is not positive (f32 can round the matrix of
 //! a level to that) makes the level be smoothed instead.
 
-use super::analysis::UNKNOWNS;
-use super::tile::WIDTH;
+use super::sizes::UNKNOWNS;
+use super::tile::{WIDTH, add, mul, sub};
+use crate::wide::Dispatch;
 
 /// Factors of a matrix of `unknowns`, a multiple of eight at most 72.
 pub(super) struct Dense<'a> {
@@ -40,8 +41,18 @@ impl<'a> Dense<'a> {
         }
     }
 
-    /// Factors in place. Right-looking: column k leaves the columns behind it.
-    pub(super) fn factor(&mut self) {
+    /// Factors in place.
+    #[inline(never)]
+    pub(super) fn factor(&mut self, dispatch: impl Dispatch) {
+        dispatch.run(
+            #[inline(always)]
+            || self.factor_in_lanes(),
+        );
+    }
+
+    /// Right-looking: column k leaves the columns behind it.
+    #[inline(always)]
+    fn factor_in_lanes(&mut self) {
         self.sound = false;
         let n = self.unknowns;
         let mut rest = self.columns.get_mut(..n).unwrap_or_default();
@@ -61,9 +72,7 @@ impl<'a> Dense<'a> {
                 let factor = column.get(k + 1 + j).copied().unwrap_or(0.0) * inverse;
                 let tiles = later.as_chunks_mut::<WIDTH>().0.iter_mut().zip(column.as_chunks::<WIDTH>().0);
                 for (later, column) in tiles.skip(from) {
-                    for (later, column) in later.iter_mut().zip(column) {
-                        *later -= factor * column;
-                    }
+                    *later = sub(*later, mul([factor; WIDTH], *column));
                 }
             }
             for entry in column.iter_mut() {
@@ -79,16 +88,22 @@ impl<'a> Dense<'a> {
 
     /// y ← A⁻¹ y
     #[inline(never)]
-    pub(super) fn solve(&self, y: &mut [f32; UNKNOWNS]) {
+    pub(super) fn solve(&self, y: &mut [f32; UNKNOWNS], dispatch: impl Dispatch) {
+        dispatch.run(
+            #[inline(always)]
+            || self.solve_in_lanes(y),
+        );
+    }
+
+    #[inline(always)]
+    fn solve_in_lanes(&self, y: &mut [f32; UNKNOWNS]) {
         let columns = self.columns.get(..self.unknowns).unwrap_or_default();
         let y_tiles = self.unknowns.div_ceil(WIDTH);
         for (k, column) in columns.iter().enumerate() {
             let value = y.get(k).copied().unwrap_or(0.0);
             let tiles = y.as_chunks_mut::<WIDTH>().0.iter_mut().zip(column.as_chunks::<WIDTH>().0);
             for (y, column) in tiles.take(y_tiles).skip((k + 1) / WIDTH) {
-                for (y, column) in y.iter_mut().zip(column) {
-                    *y -= value * column;
-                }
+                *y = sub(*y, mul([value; WIDTH], *column));
             }
         }
         for (y, inverse) in y.iter_mut().zip(&self.inverse) {
@@ -98,9 +113,7 @@ impl<'a> Dense<'a> {
             let mut sums = [0.0; WIDTH];
             let tiles = y.as_chunks::<WIDTH>().0.iter().zip(column.as_chunks::<WIDTH>().0);
             for (y, column) in tiles.take(y_tiles).skip((k + 1) / WIDTH) {
-                for (sum, (y, column)) in sums.iter_mut().zip(y.iter().zip(column)) {
-                    *sum += y * column;
-                }
+                sums = add(sums, mul(*y, *column));
             }
             let [a, b, c, d, e, f, g, h] = sums;
             if let Some(y) = y.get_mut(k) {

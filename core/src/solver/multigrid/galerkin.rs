@@ -3,9 +3,12 @@
 //!
 //! All is divided by σ, the largest mass or stiffness of the island, so that f32 holds it.
 
-use super::level::{Level, TILE, blocks};
-use super::tile::{Tile, WIDTH, add, load, mul, store, sub};
-use super::words::get;
+use super::block::{FULL, TIED};
+use super::level::Level;
+use super::planes::Planes;
+use super::runs::{LOOSE, length};
+use super::tile::{Tile6, WIDTH};
+use super::words::{NONE, get, set};
 use crate::force::Force;
 use crate::hessian::Hessian;
 use crate::real::{Real, larger};
@@ -26,34 +29,19 @@ pub(super) fn largest<T: Real, F: Force<T>>(system: &System<'_, T, F>) -> T {
     most
 }
 
-/// H/σ
-fn block<T: Real>(h: Hessian<T>, scale: T) -> [f32; 6] {
-    let w = vec3::scale(scale, h.w);
-    let product = |a: T, b: T| (a * b).to_f64() as f32;
-    let diagonal = |a: T, b: T| (scale * h.alpha + a * b).to_f64() as f32;
-    [
-        diagonal(w[0], h.w[0]),
-        diagonal(w[1], h.w[1]),
-        diagonal(w[2], h.w[2]),
-        product(w[0], h.w[1]),
-        product(w[0], h.w[2]),
-        product(w[1], h.w[2]),
-    ]
-}
-
-/// Adds a block to a slot.
+/// H/σ = αI + wwᵀ, `root` = 1/√σ
 #[inline(always)]
-fn add_to_slot(blocks: &mut [f32], slot: usize, block: [f32; 6]) {
-    let tile = blocks.get_mut(slot / WIDTH * TILE..).and_then(|rest| rest.first_chunk_mut::<TILE>());
-    if let Some(tile) = tile {
-        for (entries, value) in tile.as_chunks_mut::<WIDTH>().0.iter_mut().zip(block) {
-            if let Some(entry) = entries.get_mut(slot % WIDTH) {
-                *entry += value;
-            }
-        }
-    }
+fn tied<T: Real>(h: Hessian<T>, scale: T, root: T) -> [f32; TIED] {
+    let [x, y, z] = h.w.map(|w| (w * root).to_f64() as f32);
+    [(h.alpha * scale).to_f64() as f32, x, y, z]
 }
 
+#[inline(always)]
+fn matrix([alpha, x, y, z]: [f32; TIED]) -> [f32; FULL] {
+    Sym3::scalar(alpha).plus_outer([x, y, z]).0
+}
+
+#[inline(always)]
 fn add_to_row(held: &mut [[f32; 6]], row: usize, block: [f32; 6]) {
     if let Some(held) = held.get_mut(row) {
         for (held, value) in held.iter_mut().zip(block) {
@@ -62,14 +50,53 @@ fn add_to_row(held: &mut [[f32; 6]], row: usize, block: [f32; 6]) {
     }
 }
 
+/// Lengths of the planes of a level's runs, found by a block's place.
+struct Strides<'p> {
+    runs: &'p [super::runs::Run],
+    numbers: usize,
+    /// Places up to which the present run reaches, and its planes' length
+    end: usize,
+    stride: usize,
+    next: usize,
+}
+
+impl<'p> Strides<'p> {
+    fn new(runs: &'p [super::runs::Run], numbers: usize) -> Self {
+        Self { runs, numbers, end: 0, stride: 0, next: 0 }
+    }
+
+    /// The length of the planes of the run that `place` is in.
+    #[inline(always)]
+    fn of(&mut self, place: usize) -> usize {
+        if place < self.end && place + self.numbers * self.stride >= self.end {
+            return self.stride;
+        }
+        self.find(place)
+    }
+
+    fn find(&mut self, place: usize) -> usize {
+        if place < self.end {
+            (self.end, self.next) = (0, 0);
+        }
+        while place >= self.end {
+            let Some(run) = self.runs.get(self.next) else { return 0 };
+            self.stride = length(run[2] as usize);
+            self.end += self.numbers * self.stride;
+            self.next += 1;
+        }
+        self.stride
+    }
+}
+
 impl Level<'_> {
+    /// All numbers zero.
     fn clear(&mut self) {
         self.blocks.fill(0.0);
+        self.loose.fill([[0.0; WIDTH]; 6]);
         self.mass.fill(0.0);
         self.held.fill([0.0; 6]);
-        self.r.clear();
-        self.d.clear();
-        self.x.clear();
+        [&mut self.x, &mut self.r].into_iter().chain(&mut self.d).for_each(Planes::clear);
+        self.held_count = 0;
     }
 
     /// The finest level, 1/σ = `scale`.
@@ -81,20 +108,46 @@ impl Level<'_> {
         scale: T,
     ) {
         self.clear();
-        for (mass, m) in self.mass.iter_mut().zip(system.matrix.inertia.iter()) {
+        let root = scale.sqrt();
+        for (mass, m) in self.mass.iter_mut().skip(WIDTH).zip(system.matrix.inertia.iter()) {
             *mass = (*m * scale).to_f64() as f32;
         }
         let rows = self.pattern.size.rows;
+        let mut strides = Strides::new(self.pattern.runs, TIED);
         let mut slots = slot_of.iter();
-        system.each_spring(|row, other, h| {
-            let (slot, h) = (slots.next(), block(h, scale));
-            match slot.filter(|_| other < rows) {
-                Some(slot) => add_to_slot(self.blocks, *slot as usize, h),
-                None => add_to_row(self.held, row, h),
-            }
+        let mut last_held = NONE;
+        system.each_spring(
+            #[inline(always)]
+            |row, other, h| {
+                let place = slots.next().copied().unwrap_or(LOOSE) as usize;
+                let h = tied(h, scale, root);
+                if other >= rows {
+                    if row as u32 != last_held {
+                        last_held = row as u32;
+                        set(self.pattern.held_rows, self.held_count, last_held);
+                        self.held_count += 1;
+                    }
+                    add_to_row(self.held, row, matrix(h));
+                } else if place & LOOSE as usize == 0 {
+                    let stride = strides.of(place);
+                    for (k, value) in h.into_iter().enumerate() {
+                        if let Some(entry) = self.blocks.get_mut(place + k * stride) {
+                            *entry = value;
+                        }
+                    }
+                } else {
+                    add_loose(self.loose, place, matrix(h));
+                }
+            },
+        );
+        let mut points = false;
+        system.each_point(|row, h| {
+            points = true;
+            add_to_row(self.held, row, matrix(tied(h, scale, root)));
         });
-        system.each_point(|row, h| add_to_row(self.held, row, block(h, scale)));
-        self.finish();
+        if points {
+            self.list_held();
+        }
     }
 
     /// Pᵀ`fine`P
@@ -102,157 +155,120 @@ impl Level<'_> {
     pub(super) fn coarsen(&mut self, fine: &Level<'_>) {
         self.clear();
         let pattern = &fine.pattern;
-        for ((aggregate, mass), held) in pattern.aggregate.iter().zip(fine.mass.iter()).zip(fine.held.iter())
-        {
-            let row = *aggregate as usize;
-            if let Some(sum) = self.mass.get_mut(row) {
+        for (aggregate, mass) in pattern.aggregate.iter().zip(fine.mass.iter().skip(WIDTH)) {
+            if let Some(sum) = self.mass.get_mut(*aggregate as usize + WIDTH) {
                 *sum += *mass;
             }
-            add_to_row(self.held, row, *held);
         }
-        let tiles = fine.blocks.as_chunks::<TILE>().0.iter().zip(pattern.coarse.as_chunks::<WIDTH>().0);
-        for (tile, coarse) in tiles {
-            let [xx, yy, zz, xy, xz, yz] = blocks(tile);
-            let lanes = xx.into_iter().zip(yy).zip(zz).zip(xy.into_iter().zip(xz).zip(yz));
-            for (slot, (((xx, yy), zz), ((xy, xz), yz))) in coarse.iter().zip(lanes) {
-                add_to_slot(self.blocks, *slot as usize, [xx, yy, zz, xy, xz, yz]);
-            }
-        }
-        self.finish();
-    }
-
-    /// Notes which rows are held, and inverts the diagonal blocks.
-    fn finish(&mut self) {
-        self.held_count = 0;
-        for (row, held) in self.held.iter().enumerate().filter(|(_, held)| **held != [0.0; 6]) {
-            super::words::set(self.pattern.held_rows, self.held_count, row as u32);
-            self.held_count += usize::from(!held.is_empty());
-        }
-        self.diagonal();
-        invert(&mut self.inverse, self.pattern.size.rows);
-    }
-
-    /// The diagonal blocks, into the planes of their inverses.
-    fn diagonal(&mut self) {
-        let [xx, yy, zz, xy, xz, yz] = &mut self.inverse;
-        for plane in [&mut *xx, yy, zz] {
-            for (entry, mass) in plane.iter_mut().zip(self.mass.iter()) {
-                *entry = *mass;
-            }
-        }
-        for plane in [&mut *xy, xz, yz] {
-            plane.fill(0.0);
-        }
-        let planes = &mut self.inverse;
-        let add_at = |planes: &mut [&mut [f32]; 6], row: usize, block: [f32; 6]| {
-            for (plane, value) in planes.iter_mut().zip(block) {
-                if let Some(entry) = plane.get_mut(row) {
-                    *entry += value;
-                }
-            }
-        };
-        for row in self.pattern.held_rows.iter().take(self.held_count) {
+        for row in pattern.held_rows.iter().take(fine.held_count) {
             let row = *row as usize;
-            add_at(planes, row, self.held.get(row).copied().unwrap_or_default());
+            let aggregate = get(pattern.aggregate, row) as usize;
+            add_to_row(self.held, aggregate, fine.held.get(row).copied().unwrap_or_default());
         }
-        let split = TILE * self.pattern.size.extent.run_tiles;
-        let (tiled, loose) = self.blocks.split_at_checked(split).unwrap_or_default();
-        let mut tiles = tiled.as_chunks::<TILE>().0.iter();
-        for [first, offset, count] in self.pattern.runs() {
-            let mut a = *first as usize;
-            let mut b = a + *offset as usize;
-            for tile in tiles.by_ref().take(*count as usize) {
-                for (plane, entry) in planes.iter_mut().zip(blocks(tile)) {
-                    store(plane, a, add(load(plane, a), entry));
-                    store(plane, b, add(load(plane, b), entry));
+        if fine.held_count > 0 {
+            self.list_held();
+        }
+        let mut from_strides = Strides::new(pattern.runs, if fine.tied { TIED } else { FULL });
+        let mut to_strides = Strides::new(self.pattern.runs, FULL);
+        for (from, to) in pattern.from.iter().zip(pattern.to.iter()) {
+            let (from, to) = (*from as usize, *to as usize);
+            let block = if from & LOOSE as usize != 0 {
+                loose_block(fine.loose, from & !(LOOSE as usize))
+            } else {
+                let stride = from_strides.of(from);
+                let number = |k: usize| fine.blocks.get(from + k * stride).copied().unwrap_or(0.0);
+                if fine.tied {
+                    matrix([number(0), number(1), number(2), number(3)])
+                } else {
+                    [number(0), number(1), number(2), number(3), number(4), number(5)]
                 }
-                (a, b) = (a + WIDTH, b + WIDTH);
+            };
+            if to & LOOSE as usize != 0 {
+                add_loose(self.loose, to, block);
+            } else {
+                let stride = to_strides.of(to);
+                for (k, value) in block.into_iter().enumerate() {
+                    if let Some(entry) = self.blocks.get_mut(to + k * stride) {
+                        *entry += value;
+                    }
+                }
             }
         }
-        self.pattern.each_loose_tile(loose, |tile, a, b| {
-            let [xx, yy, zz, xy, xz, yz] = blocks(tile);
-            let lanes = xx.into_iter().zip(yy).zip(zz).zip(xy.into_iter().zip(xz).zip(yz));
-            for ((a, b), (((xx, yy), zz), ((xy, xz), yz))) in a.iter().zip(b).zip(lanes) {
-                add_at(planes, *a as usize, [xx, yy, zz, xy, xz, yz]);
-                add_at(planes, *b as usize, [xx, yy, zz, xy, xz, yz]);
-            }
-        });
+    }
+
+    /// Notes which rows are held.
+    fn list_held(&mut self) {
+        self.held_count = 0;
+        for (row, _) in self.held.iter().enumerate().filter(|(_, held)| **held != [0.0; 6]) {
+            set(self.pattern.held_rows, self.held_count, row as u32);
+            self.held_count += 1;
+        }
     }
 
     /// The level's blocks as (row, column, block), to be added up.
     pub(super) fn each_block(&self, mut visit: impl FnMut(usize, usize, [f32; 6])) {
         let rows = self.pattern.size.rows;
-        for (i, (mass, held)) in self.mass.iter().zip(self.held.iter()).enumerate().take(rows) {
+        for (i, (mass, held)) in self.mass.iter().skip(WIDTH).zip(self.held.iter()).enumerate().take(rows) {
             visit(i, i, Sym3::scalar(*mass).0);
             visit(i, i, *held);
         }
-        for (t, tile) in self.blocks.as_chunks::<TILE>().0.iter().enumerate() {
-            let [xx, yy, zz, xy, xz, yz] = blocks(tile);
-            let lanes = xx.into_iter().zip(yy).zip(zz).zip(xy.into_iter().zip(xz).zip(yz));
-            for (k, (((xx, yy), zz), ((xy, xz), yz))) in lanes.enumerate() {
-                let slot = WIDTH * t + k;
-                if self.pattern.is_edge(slot) {
-                    let ends = [&*self.pattern.a, &*self.pattern.b];
-                    let [a, b] = ends.map(|list| get(list, slot) as usize);
-                    let block = [xx, yy, zz, xy, xz, yz];
-                    visit(a, a, block);
-                    visit(b, b, block);
-                    let minus = block.map(|x| -x);
-                    visit(a, b, minus);
-                    visit(b, a, minus);
+        let mut edge = |a: usize, b: usize, block: [f32; 6]| {
+            visit(a, a, block);
+            visit(b, b, block);
+            let minus = block.map(|x| -x);
+            visit(a, b, minus);
+            visit(b, a, minus);
+        };
+        if self.tied {
+            self.each_tile::<super::block::Tied>(rows, &mut edge);
+        } else {
+            self.each_tile::<super::block::Full>(rows, &mut edge);
+        }
+        let [a, b] = &self.pattern.loose;
+        for (k, (a, b)) in a.iter().zip(b.iter()).enumerate() {
+            if (*b as usize) < rows {
+                edge(*a as usize, *b as usize, loose_block(self.loose, k));
+            }
+        }
+    }
+
+    /// The edges of the runs.
+    fn each_tile<K: super::block::Kind>(&self, rows: usize, edge: &mut impl FnMut(usize, usize, [f32; 6])) {
+        super::level::each_run::<K>(self.pattern.runs, self.blocks, |[first, offset, tiles], numbers| {
+            let tiles = tiles as usize;
+            for (t, blocks) in K::tiles(numbers, length(tiles), WIDTH, WIDTH * tiles).enumerate() {
+                let matrices = K::matrices(blocks);
+                for k in 0..WIDTH {
+                    let a = first as usize + WIDTH * t + k;
+                    let b = a + offset as usize;
+                    if b < rows {
+                        edge(a, b, lane(&matrices, k));
+                    }
                 }
             }
-        }
+        });
     }
 }
 
-/// Where a is positive, 1/a; else 0, and the lane is bad.
+/// The block of a loose edge.
 #[inline(always)]
-fn reciprocal(a: Tile, bad: &mut [bool; WIDTH]) -> Tile {
-    let mut out = a;
-    for ((out, a), bad) in out.iter_mut().zip(a).zip(bad) {
-        *out = 1.0 / a;
-        *bad |= !(a > 0.0 && *out > 0.0);
-    }
-    out
+pub(super) fn loose_block(loose: &[Tile6], slot: usize) -> [f32; 6] {
+    loose.get(slot / WIDTH).map_or([0.0; 6], |tile| lane(tile, slot % WIDTH))
 }
 
-/// Inverts eight blocks at a time as [`Sym3::inverse`] does one; a block that is not positive becomes its largest entry's.
-#[inline(never)]
-fn invert(planes: &mut [&mut [f32]; 6], rows: usize) {
-    let mut i = 0;
-    while i < rows {
-        let [xx, yy, zz, xy, xz, yz] = &*planes;
-        let [xx, yy, zz] = [load(xx, i), load(yy, i), load(zz, i)];
-        let [xy, xz, yz] = [load(xy, i), load(xz, i), load(yz, i)];
-        let mut bad = [false; WIDTH];
-        let i1 = reciprocal(xx, &mut bad);
-        let (l21, l31) = (mul(xy, i1), mul(xz, i1));
-        let i2 = reciprocal(sub(yy, mul(l21, xy)), &mut bad);
-        let s32 = sub(yz, mul(l31, xy));
-        let l32 = mul(s32, i2);
-        let i3 = reciprocal(sub(sub(zz, mul(l31, xz)), mul(l32, s32)), &mut bad);
-        let m31 = sub(mul(l21, l32), l31);
-        let (t21, t31, t32) = (mul(i2, l21), mul(i3, m31), mul(i3, l32));
-        let inverse = [
-            add(add(i1, mul(t21, l21)), mul(t31, m31)),
-            add(i2, mul(t32, l32)),
-            i3,
-            sub([0.0; WIDTH], add(t21, mul(t31, l32))),
-            t31,
-            sub([0.0; WIDTH], t32),
-        ];
-        let mut largest = xx;
-        for (largest, (y, z)) in largest.iter_mut().zip(yy.into_iter().zip(zz)) {
-            *largest = larger(larger(*largest, y), z);
-        }
-        for (k, (plane, mut tile)) in planes.iter_mut().zip(inverse).enumerate() {
-            for ((entry, bad), largest) in tile.iter_mut().zip(bad).zip(largest) {
-                let instead = if k < 3 && largest > 0.0 { 1.0 / largest } else { 0.0 };
-                *entry = if bad { instead } else { *entry };
+#[inline(always)]
+fn lane(tile: &Tile6, k: usize) -> [f32; 6] {
+    tile.map(|entries| entries.get(k).copied().unwrap_or(0.0))
+}
+
+#[inline(always)]
+fn add_loose(loose: &mut [Tile6], slot: usize, block: [f32; 6]) {
+    let slot = slot & !(LOOSE as usize);
+    if let Some(tile) = loose.get_mut(slot / WIDTH) {
+        for (entries, value) in tile.iter_mut().zip(block) {
+            if let Some(entry) = entries.get_mut(slot % WIDTH) {
+                *entry += value;
             }
-            store(plane, i, tile);
         }
-        i += WIDTH;
     }
 }

@@ -3,59 +3,61 @@
 //!
 //! (A x)_i = m_i x_i + held_i x_i + Σ_{edges (i, j)} H (x_i − x_j).
 //!
-//! So the diagonal of every level is a sum of positive terms without cancellation. Vectors are three planes each; a plane is
-//! at least eight longer than there are rows, and what lies beyond the rows is zero, so that a tile may reach past the end.
+//! So the diagonal of every level is a sum of positive terms without cancellation. What lies beyond the rows is zero, so that
+//! a tile may reach past the end.
 
-use super::runs::{Extent, Run};
-use super::tile::{Planes, Tile, WIDTH};
-use super::words::{NONE, take};
+use super::block::{FULL, Kind, TIED};
+use super::planes::{Planes, Planes6, plane};
+use super::runs::{Extent, Run, length};
+use super::tile::{Tile6, WIDTH};
+use super::words::{align, take};
 
-/// Length of a plane.
-pub(super) const fn plane(rows: usize) -> usize {
-    (rows + 2 * WIDTH - 1) / WIDTH * WIDTH
+/// Planes of a level: mass; inverse diagonal blocks; x, r, twice d.
+const PLANES: usize = 1 + 6 + 12;
+
+/// Numbers of a level but for its blocks.
+pub(super) const fn numbers(rows: usize) -> usize {
+    PLANES * plane(rows) + FULL * rows + WIDTH + LINE
 }
 
-/// Planes of a level: mass; inverse diagonal block; x, r, d.
-pub(super) const PLANES: usize = 1 + 6 + 9;
-/// Numbers of a tile of edges.
-pub(super) const TILE: usize = 6 * WIDTH;
-/// Numbers of held blocks per row.
-pub(super) const HELD: usize = 6;
+/// Numbers in a line of the cache.
+pub(super) const LINE: usize = 16;
 
 /// Sizes of a level.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(super) struct Size {
     pub(super) rows: usize,
     pub(super) extent: Extent,
+    /// Edges between rows of two aggregates
+    pub(super) cross: usize,
 }
 
 /// What depends on the pattern only.
 pub(super) struct Pattern<'a> {
     pub(super) size: Size,
-    /// See [`Run`]
-    pub(super) runs: &'a mut [u32],
-    /// Both ends of every slot
-    pub(super) a: &'a mut [u32],
-    pub(super) b: &'a mut [u32],
-    /// Each slot's slot on the next level; NONE if its ends are one row there
-    pub(super) coarse: &'a mut [u32],
+    pub(super) runs: &'a mut [Run],
+    /// Both ends of the loose edges, NONE where there is none
+    pub(super) loose: [&'a mut [u32]; 2],
     /// Each row's row on the next level
     pub(super) aggregate: &'a mut [u32],
     /// Scratch: which rows have held blocks that are not zero
     pub(super) held_rows: &'a mut [u32],
+    /// Where blocks of edges between aggregates lie, and where on the next level they are summed
+    pub(super) from: &'a mut [u32],
+    pub(super) to: &'a mut [u32],
 }
 
 impl<'a> Pattern<'a> {
     pub(super) fn carve(pool: &mut &'a mut [u32], size: Size) -> Option<Self> {
-        let slots = WIDTH * size.extent.tiles;
+        let loose = WIDTH * size.extent.loose;
         Some(Self {
             size,
-            runs: take(pool, 3 * size.extent.runs)?,
-            a: take(pool, slots)?,
-            b: take(pool, slots)?,
-            coarse: take(pool, slots)?,
+            runs: take(pool, 3 * size.extent.runs)?.as_chunks_mut().0,
+            loose: [take(pool, loose)?, take(pool, loose)?],
             aggregate: take(pool, size.rows)?,
             held_rows: take(pool, size.rows)?,
+            from: take(pool, size.cross)?,
+            to: take(pool, size.cross)?,
         })
     }
 }
@@ -63,65 +65,72 @@ impl<'a> Pattern<'a> {
 /// A level as it is in one step.
 pub(super) struct Level<'a> {
     pub(super) pattern: Pattern<'a>,
+    /// Are the blocks of runs αI + wwᵀ?
+    pub(super) tied: bool,
     /// How many rows are held
     pub(super) held_count: usize,
-    /// H of every slot, tile by tile: eight of xx, eight of yy, …
+    /// The runs' numbers
     pub(super) blocks: &'a mut [f32],
+    /// The loose edges' blocks
+    pub(super) loose: &'a mut [Tile6],
     pub(super) mass: &'a mut [f32],
     pub(super) held: &'a mut [[f32; 6]],
-    /// Inverses of the diagonal blocks: six planes
-    pub(super) inverse: [&'a mut [f32]; 6],
+    /// Inverses of the diagonal blocks
+    pub(super) inverse: Planes6<'a>,
     pub(super) x: Planes<'a>,
     pub(super) r: Planes<'a>,
-    pub(super) d: Planes<'a>,
+    /// The last change of x, and room for the next
+    pub(super) d: [Planes<'a>; 2],
 }
 
 impl<'a> Level<'a> {
-    pub(super) fn carve(words: &mut &'a mut [u32], pool: &mut &'a mut [f32], size: Size) -> Option<Self> {
+    pub(super) fn carve(
+        words: &mut &'a mut [u32],
+        pool: &mut &'a mut [f32],
+        size: Size,
+        tied: bool,
+    ) -> Option<Self> {
+        align(pool, LINE)?;
         let n = plane(size.rows);
+        let per_place = if tied { TIED } else { FULL };
+        let blocks = take(pool, per_place * size.extent.places + WIDTH)?;
         let mut next = || take(pool, n);
         let mass = next()?;
-        let inverse = [next()?, next()?, next()?, next()?, next()?, next()?];
+        let inverse = Planes6([next()?, next()?, next()?, next()?, next()?, next()?]);
         let mut three = || Some(Planes([next()?, next()?, next()?]));
-        let (x, r, d) = (three()?, three()?, three()?);
-        let held = take(pool, HELD * size.rows)?.as_chunks_mut().0;
-        let blocks = take(pool, TILE * size.extent.tiles)?;
+        let (x, r, d) = (three()?, three()?, [three()?, three()?]);
+        let loose = take(pool, FULL * WIDTH * size.extent.loose)?.as_chunks_mut().0.as_chunks_mut().0;
+        let held = take(pool, FULL * size.rows)?.as_chunks_mut().0;
         let pattern = Pattern::carve(words, size)?;
-        Some(Self { pattern, held_count: 0, blocks, mass, held, inverse, x, r, d })
+        Some(Self { pattern, tied, held_count: 0, blocks, loose, mass, held, inverse, x, r, d })
     }
 }
 
-/// A tile's blocks, entry by entry.
+/// Visits the runs with their numbers.
 #[inline(always)]
-pub(super) fn blocks(tile: &[f32; TILE]) -> [Tile; 6] {
-    let [xx, yy, zz, xy, xz, yz] = tile.as_chunks::<WIDTH>().0 else { return [[0.0; WIDTH]; 6] };
-    [*xx, *yy, *zz, *xy, *xz, *yz]
+pub(super) fn each_run<K: Kind>(runs: &[Run], blocks: &[f32], mut visit: impl FnMut(Run, &[f32])) {
+    let mut rest = blocks;
+    for run in runs {
+        let size = K::NUMBERS * length(run[2] as usize);
+        // With the zeros behind, which the next run begins with.
+        let numbers = rest.get(..size + WIDTH).unwrap_or_default();
+        rest = rest.get(size..).unwrap_or_default();
+        visit(*run, numbers);
+    }
 }
 
-impl Pattern<'_> {
-    /// The loose tiles with their ends.
-    #[inline(always)]
-    pub(super) fn each_loose_tile(
-        &self,
-        loose: &[f32],
-        mut visit: impl FnMut(&[f32; TILE], &[u32; WIDTH], &[u32; WIDTH]),
-    ) {
-        let first = WIDTH * self.size.extent.run_tiles;
-        let ends = |list: &'_ [u32]| -> usize { list.len().min(first) };
-        let (a, b) = (self.a.get(ends(self.a)..), self.b.get(ends(self.b)..));
-        let (a, b) = (a.unwrap_or_default().as_chunks().0, b.unwrap_or_default().as_chunks().0);
-        for (tile, (a, b)) in loose.as_chunks::<TILE>().0.iter().zip(a.iter().zip(b)) {
-            visit(tile, a, b);
-        }
-    }
-
-    /// The runs.
-    pub(super) fn runs(&self) -> &[Run] {
-        self.runs.as_chunks().0
-    }
-
-    /// Every slot's ends, and whether it is in use.
-    pub(super) fn is_edge(&self, slot: usize) -> bool {
-        self.a.get(slot).is_some_and(|a| *a != NONE)
-    }
+/// Where a run meets the rows from i on, `n` of them, both multiples of a tile: calls `visit(row, place of its block, number of
+/// rows)` for those whose edges go up, and whose edges go down.
+#[inline(always)]
+pub(super) fn meet([first, offset, tiles]: Run, i: usize, n: usize) -> [[usize; 3]; 2] {
+    let (first, offset, rows) = (first as usize, offset as usize, WIDTH * tiles as usize);
+    let upper = |a: usize, b: usize| if a > b { a } else { b };
+    let lower = |a: usize, b: usize| if a < b { a } else { b };
+    let (begin, end) = (upper(i, first), lower(i + n, first + rows));
+    let up = [begin, (begin + WIDTH).wrapping_sub(first), end.saturating_sub(begin)];
+    // Whole tiles of rows, of which some at either end may have no edge.
+    let from = first + offset;
+    let (begin, end) = (upper(i, from - from % WIDTH), lower(i + n, (from + rows).next_multiple_of(WIDTH)));
+    let down = [begin, (begin + WIDTH).wrapping_sub(from), end.saturating_sub(begin)];
+    [up, down]
 }

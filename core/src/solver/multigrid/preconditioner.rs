@@ -2,11 +2,13 @@
 //! component, since f32 would lose a small one, and A divided by σ.
 
 use super::LevelPart;
-use super::analysis::{self, DENSE, LEVELS, Shape, UNKNOWNS};
 use super::cycle::Hierarchy;
 use super::dense::Dense;
 use super::galerkin;
 use super::level::Level;
+use super::record::{Shape, skip_record};
+use super::sizes::{DENSE, LEVELS, UNKNOWNS};
+use super::tile::WIDTH;
 use super::words::take;
 use crate::bound::square;
 use crate::force::Force;
@@ -49,26 +51,28 @@ impl<'a, T: Real, D: Dispatch> Preconditioner<'a, T, D> {
         mut kept: &'a mut [u32],
         mut pool: &'a mut [f32],
     ) -> Option<()> {
-        let slot_of = analysis::skip_record(&mut kept, system.matrix.other.len())?;
+        let slot_of = skip_record(&mut kept, system.matrix.other.len())?;
         self.scale = T::ONE / galerkin::largest(system);
         let Hierarchy { levels, count, dense } = &mut self.hierarchy;
         *count = shape.levels;
         let coarsest = shape.size.get(shape.levels.checked_sub(1)?)?.rows;
         *dense = Dense::new(take(&mut pool, UNKNOWNS * UNKNOWNS)?, coarsest);
         let mut finer: Option<&mut Level<'_>> = None;
+        let (scale, dispatch) = (self.scale, self.dispatch);
         for (level, size) in levels.iter_mut().zip(&shape.size).take(shape.levels) {
-            *level = Level::carve(&mut kept, &mut pool, *size);
+            *level = Level::carve(&mut kept, &mut pool, *size, finer.is_none());
             let level = level.as_mut()?;
             match finer {
-                None => level.fill(system, slot_of, self.scale),
+                None => level.fill(system, slot_of, scale),
                 Some(fine) => level.coarsen(fine),
             }
+            level.invert_diagonal(dispatch);
             finer = Some(level);
         }
         if let Some(coarsest) = finer.filter(|level| level.pattern.size.rows <= DENSE) {
             dense.clear();
             coarsest.each_block(|a, b, block| dense.add(a, b, block));
-            dense.factor();
+            dense.factor(dispatch);
         }
         Some(())
     }
@@ -97,7 +101,8 @@ impl<'a, T: Real, D: Dispatch> Preconditioner<'a, T, D> {
             return false;
         }
         let [x, y, z] = &mut finest.r.0;
-        for (((x, y), z), [a, b, c]) in x.iter_mut().zip(y.iter_mut()).zip(z.iter_mut()).zip(r) {
+        let rows = x.iter_mut().zip(y.iter_mut()).zip(z.iter_mut()).skip(WIDTH);
+        for (((x, y), z), [a, b, c]) in rows.zip(r) {
             *x = (down * a).to_f64() as f32;
             *y = (down * b).to_f64() as f32;
             *z = (down * c).to_f64() as f32;
@@ -112,7 +117,7 @@ impl<'a, T: Real, D: Dispatch> Preconditioner<'a, T, D> {
         let up = most * self.scale;
         let finest = self.hierarchy.levels.first().and_then(|level| level.as_ref());
         let planes = finest.map(|level| &level.x.0);
-        let rows = planes.map(|[x, y, z]| x.iter().zip(y.iter()).zip(z.iter()));
+        let rows = planes.map(|[x, y, z]| x.iter().zip(y.iter()).zip(z.iter()).skip(WIDTH));
         rows.into_iter().flatten().map(move |((x, y), z)| {
             let of = |x: f32| up * T::from_f64(f64::from(x));
             [of(*x), of(*y), of(*z)]

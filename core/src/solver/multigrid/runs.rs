@@ -1,29 +1,43 @@
-//! Where a level's edges lie. An edge joins rows a < b; edges of one offset b − a and consecutive a form a *run*: tiles of
-//! eight slots (a, a + d), (a + 1, a + 1 + d), …, a slot without an edge holding zeros. A run needs no indices and is read
-//! in order. Runs that would be more than half empty are *loose* instead: tiles of any eight edges, with their ends. A
-//! cloth has a few runs on every level; a bunny is mostly loose.
+//! Where a level's edges lie. An edge joins rows a < b; edges of one offset b − a and nearby a form a *run*: whole tiles of
+//! rows a, a place for each row's edge to row a + d, places without an edge holding zeros. A run needs no indices: what
+//! its edges do to their lower and to their upper ends is read in order, without any scatter. Edges whose runs would be
+//! mostly empty are *loose* instead: tiles of any eight edges, with their ends. A cloth has a few runs on every level; a
+//! bunny is mostly loose.
 //!
-//! Several edges between the same two rows share a slot, so the number of slots is at most twice that of edges, and 7.
+//! A run's numbers lie in planes, one per number of a block, each with a tile of zeros in front; behind the last run there is
+//! one more.
 
 use super::tile::WIDTH;
 use super::words::{NONE, get, set};
 
-/// The largest gap inside a run: what it takes to step over the end of a grid's line.
-const GAP: u32 = 4;
+/// The largest gap inside a run: as long as a line of the second level of a large cloth, since lines of aggregates alternate.
+const GAP: u32 = 64;
+/// A run that takes more places per edge than this is loose.
+pub(super) const SPARSE: usize = 4;
 
-/// A run: first row, offset, number of tiles.
+/// A run: first row (of a tile), offset, number of tiles.
 pub(super) type Run = [u32; 3];
+
+/// Places in a plane of a run.
+#[inline(always)]
+pub(super) const fn length(tiles: usize) -> usize {
+    WIDTH * (tiles + 1)
+}
 
 /// How much room an arrangement takes.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub(super) struct Extent {
     /// Number of runs.
     pub(super) runs: usize,
-    /// Tiles in runs; they come first.
-    pub(super) run_tiles: usize,
-    /// All tiles.
-    pub(super) tiles: usize,
+    /// Places in one plane of every run.
+    pub(super) places: usize,
+    /// Tiles of loose edges.
+    pub(super) loose: usize,
 }
+
+/// Where an edge's block lies: the first number's place, counted over the planes of all runs or, with this bit, over the
+/// loose edges.
+pub(super) const LOOSE: u32 = 1 << 31;
 
 /// Sorts edges (`a`, `b`) with a < b < rows, those with NONE left out, by offset and then a: two counting sorts, each O(edges
 /// + rows). The sorted list comes in `order`.
@@ -69,15 +83,14 @@ fn counting_sort(from: &[u32], to: &mut [u32], count: &mut [u32], key: impl Fn(u
 /// A stretch of sorted edges of one offset without large gaps.
 struct Stretch<'s> {
     edges: &'s [u32],
+    /// A whole tile's
     first: u32,
     offset: u32,
     /// Number of tiles if it is to be a run.
     run: Option<usize>,
-    /// Number of pairs of rows
-    pairs: usize,
 }
 
-fn stretches(ends: [&[u32]; 2], mut sorted: &[u32], mut visit: impl FnMut(&Stretch<'_>)) {
+fn stretches(ends: [&[u32]; 2], mut sorted: &[u32], sparse: usize, mut visit: impl FnMut(&Stretch<'_>)) {
     let [a, b] = ends;
     let key = |edge: u32| {
         let (a, b) = (get(a, edge as usize), get(b, edge as usize));
@@ -95,63 +108,50 @@ fn stretches(ends: [&[u32]; 2], mut sorted: &[u32], mut visit: impl FnMut(&Stret
             (last, edges) = (a, edges + 1);
         }
         let (stretch, rest) = sorted.split_at_checked(edges).unwrap_or_default();
-        let tiles = ((last - first) as usize + WIDTH) / WIDTH;
-        let run = (2 * pairs >= WIDTH * tiles).then_some(tiles);
-        visit(&Stretch { edges: stretch, first, offset, run, pairs });
+        let first = first - first % WIDTH as u32;
+        let tiles = (last - first) as usize / WIDTH + 1;
+        let run = (length(tiles) <= sparse * pairs).then_some(tiles);
+        visit(&Stretch { edges: stretch, first, offset, run });
         sorted = rest;
     }
 }
 
-/// How much room the sorted edges take.
-pub(super) fn extent(ends: [&[u32]; 2], sorted: &[u32]) -> Extent {
-    let (mut extent, mut loose) = (Extent::default(), 0);
-    stretches(ends, sorted, |stretch| match stretch.run {
-        Some(tiles) => {
-            extent.runs += 1;
-            extent.run_tiles += tiles;
-        }
-        None => loose += stretch.pairs,
-    });
-    extent.tiles = extent.run_tiles + loose.div_ceil(WIDTH);
-    extent
-}
-
-/// Gives every sorted edge its slot, and writes the runs and the ends of every slot (NONE: empty).
+/// Lays the sorted edges out: calls `put(edge, where, is it the first there?)` for each, `run` for each run. Where `alone`,
+/// an edge does not share its place with another between the same two rows.
 pub(super) fn arrange(
     ends: [&[u32]; 2],
     sorted: &[u32],
-    extent: Extent,
-    slot_of: &mut [u32],
-    runs: &mut [u32],
-    slot_ends: [&mut [u32]; 2],
-) {
-    let [a, b] = ends;
-    let [slot_a, slot_b] = slot_ends;
-    slot_of.fill(NONE);
-    slot_a.fill(NONE);
-    slot_b.fill(NONE);
-    let mut runs = runs.as_chunks_mut::<3>().0.iter_mut();
-    let (mut next_tile, mut next_loose) = (0, extent.run_tiles * WIDTH);
-    stretches(ends, sorted, |stretch| {
-        if let (Some(tiles), Some(run)) = (stretch.run, stretch.run.and_then(|_| runs.next())) {
-            *run = [stretch.first, stretch.offset, tiles as u32];
-        }
+    numbers: usize,
+    alone: bool,
+    sparse: usize,
+    mut run: impl FnMut(Run),
+    mut put: impl FnMut(u32, u32, bool),
+) -> Extent {
+    let mut extent = Extent::default();
+    let mut loose = 0;
+    stretches(ends, sorted, sparse, |stretch| {
         let mut before = NONE;
         for edge in stretch.edges {
-            let edge = *edge as usize;
-            let (a, b) = (get(a, edge), get(b, edge));
-            let slot = match stretch.run {
-                Some(_) => next_tile * WIDTH + (a - stretch.first) as usize,
-                None => {
-                    next_loose += usize::from(a != before);
-                    next_loose - 1
+            let a = get(ends[0], *edge as usize);
+            let again = a == before;
+            let place = match stretch.run {
+                Some(_) if !(again && alone) => {
+                    (numbers * extent.places + WIDTH) as u32 + (a - stretch.first)
+                }
+                _ => {
+                    loose += u32::from(!again || alone);
+                    (loose - 1) | LOOSE
                 }
             };
             before = a;
-            set(slot_of, edge, slot as u32);
-            set(slot_a, slot, a);
-            set(slot_b, slot, b);
+            put(*edge, place, !again || alone);
         }
-        next_tile += stretch.run.unwrap_or(0);
+        if let Some(tiles) = stretch.run {
+            run([stretch.first, stretch.offset, tiles as u32]);
+            extent.runs += 1;
+            extent.places += length(tiles);
+        }
     });
+    extent.loose = (loose as usize).div_ceil(WIDTH);
+    extent
 }

@@ -1,4 +1,4 @@
-//! Lists of words in a borrowed buffer.
+//! Lists in a borrowed buffer.
 
 /// No row, no edge.
 pub(super) const NONE: u32 = u32::MAX;
@@ -27,4 +27,10 @@ pub(super) fn take<'a, X>(pool: &mut &'a mut [X], n: usize) -> Option<&'a mut [X
     let (first, rest) = whole.split_at_mut_checked(n)?;
     *pool = rest;
     Some(first)
+}
+
+/// Leaves out some numbers, fewer than `line`, so that the next begins a line of the cache.
+pub(super) fn align(pool: &mut &mut [f32], line: usize) -> Option<()> {
+    let away = pool.as_ptr().align_offset(line * size_of::<f32>());
+    take(pool, if away < line { away } else { 0 }).map(|_| ())
 }

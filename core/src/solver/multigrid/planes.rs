@@ -1,0 +1,138 @@
+//! Planes: a number per row, row 0 at place [`WIDTH`], with a tile of zeros in front and behind, so that a stretch that is a
+//! whole number of tiles long may begin and end a little outside.
+
+use super::tile::{Tile, Tile3, Tile6, WIDTH};
+
+/// Length of a plane.
+pub(super) const fn plane(rows: usize) -> usize {
+    WIDTH * (rows.div_ceil(WIDTH) + 2)
+}
+
+/// `n` numbers of a plane from a place on, in tiles; none if it has not so many.
+#[inline(always)]
+pub(super) fn cut(plane: &[f32], at: usize, n: usize) -> &[Tile] {
+    plane.get(at..at + n).unwrap_or_default().as_chunks().0
+}
+
+#[inline(always)]
+fn cut_mut(plane: &mut [f32], at: usize, n: usize) -> &mut [Tile] {
+    plane.get_mut(at..at + n).unwrap_or_default().as_chunks_mut().0
+}
+
+/// Vectors: x y z of every row.
+pub(super) struct Planes<'a>(pub(super) [&'a mut [f32]; 3]);
+
+impl Planes<'_> {
+    /// A stretch, tile by tile.
+    #[inline(always)]
+    pub(super) fn tiles(&self, at: usize, n: usize) -> impl Iterator<Item = Tile3> {
+        let [x, y, z] = &self.0;
+        let (x, y, z) = (cut(x, at, n), cut(y, at, n), cut(z, at, n));
+        x.iter().zip(y).zip(z).map(
+            #[inline(always)]
+            |((x, y), z)| [*x, *y, *z],
+        )
+    }
+
+    /// The same, to be written.
+    #[inline(always)]
+    pub(super) fn tiles_mut(&mut self, at: usize, n: usize) -> impl Iterator<Item = [&mut Tile; 3]> {
+        let [x, y, z] = &mut self.0;
+        let (x, y, z) = (cut_mut(x, at, n), cut_mut(y, at, n), cut_mut(z, at, n));
+        x.iter_mut().zip(y).zip(z).map(
+            #[inline(always)]
+            |((x, y), z)| [x, y, z],
+        )
+    }
+
+    /// One row.
+    #[inline(always)]
+    pub(super) fn at(&self, row: usize) -> [f32; 3] {
+        let [x, y, z] = &self.0;
+        let of = |plane: &[f32]| plane.get(row.saturating_add(WIDTH)).copied().unwrap_or(0.0);
+        [of(x), of(y), of(z)]
+    }
+
+    /// Writes one row.
+    #[inline(always)]
+    pub(super) fn put(&mut self, row: usize, v: [f32; 3]) {
+        for (plane, v) in self.0.iter_mut().zip(v) {
+            if let Some(place) = plane.get_mut(row.saturating_add(WIDTH)) {
+                *place = v;
+            }
+        }
+    }
+
+    /// Adds to one row.
+    #[inline(always)]
+    pub(super) fn add(&mut self, row: usize, v: [f32; 3]) {
+        for (plane, v) in self.0.iter_mut().zip(v) {
+            if let Some(place) = plane.get_mut(row.saturating_add(WIDTH)) {
+                *place += v;
+            }
+        }
+    }
+
+    pub(super) fn clear(&mut self) {
+        for plane in &mut self.0 {
+            plane.fill(0.0);
+        }
+    }
+}
+
+#[inline(always)]
+pub(super) fn read([x, y, z]: &[&mut Tile; 3]) -> Tile3 {
+    [**x, **y, **z]
+}
+
+#[inline(always)]
+pub(super) fn write([x, y, z]: [&mut Tile; 3], [tx, ty, tz]: Tile3) {
+    *x = tx;
+    *y = ty;
+    *z = tz;
+}
+
+/// Symmetric matrices: xx yy zz xy xz yz of every row.
+pub(super) struct Planes6<'a>(pub(super) [&'a mut [f32]; 6]);
+
+impl Planes6<'_> {
+    /// A stretch, tile by tile.
+    #[inline(always)]
+    pub(super) fn tiles(&self, at: usize, n: usize) -> impl Iterator<Item = Tile6> {
+        let [a, b, c, d, e, f] = &self.0;
+        let upper = cut(a, at, n).iter().zip(cut(b, at, n)).zip(cut(c, at, n));
+        let lower = cut(d, at, n).iter().zip(cut(e, at, n)).zip(cut(f, at, n));
+        upper.zip(lower).map(
+            #[inline(always)]
+            |(((a, b), c), ((d, e), f))| [*a, *b, *c, *d, *e, *f],
+        )
+    }
+
+    /// The same, to be written.
+    #[inline(always)]
+    pub(super) fn tiles_mut(&mut self, at: usize, n: usize) -> impl Iterator<Item = [&mut Tile; 6]> {
+        let [a, b, c, d, e, f] = &mut self.0;
+        let upper = cut_mut(a, at, n).iter_mut().zip(cut_mut(b, at, n)).zip(cut_mut(c, at, n));
+        let lower = cut_mut(d, at, n).iter_mut().zip(cut_mut(e, at, n)).zip(cut_mut(f, at, n));
+        upper.zip(lower).map(
+            #[inline(always)]
+            |(((a, b), c), ((d, e), f))| [a, b, c, d, e, f],
+        )
+    }
+
+    /// Adds to one row.
+    #[inline(always)]
+    pub(super) fn add(&mut self, row: usize, m: [f32; 6]) {
+        for (plane, m) in self.0.iter_mut().zip(m) {
+            if let Some(place) = plane.get_mut(row.saturating_add(WIDTH)) {
+                *place += m;
+            }
+        }
+    }
+
+    pub(super) fn clear(&mut self) {
+        for plane in &mut self.0 {
+            plane.fill(0.0);
+        }
+    }
+}
