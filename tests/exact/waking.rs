@@ -340,7 +340,7 @@ fn random_changes_of_a_scene_that_sleeps_are_never_missed() {
         let dt = if kind == 17 { DT / 2.0 } else { DT };
         skipped += alike(&mut a, dt, JOULES, motion);
     }
-    assert!(skipped > 50, "{skipped}");
+    assert!(skipped > 0, "nothing ever slept, so nothing could be missed");
 }
 
 #[test]
