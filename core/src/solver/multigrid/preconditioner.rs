@@ -101,8 +101,8 @@ impl<'a, T: Real, D: Dispatch> Preconditioner<'a, T, D> {
             return false;
         }
         let [x, y, z] = &mut finest.r.0;
-        let rows = x.iter_mut().zip(y.iter_mut()).zip(z.iter_mut()).skip(WIDTH);
-        for (((x, y), z), [a, b, c]) in rows.zip(r) {
+        let [x, y, z] = [rows_mut(x), rows_mut(y), rows_mut(z)];
+        for (((x, y), z), [a, b, c]) in x.iter_mut().zip(y).zip(z).zip(r) {
             *x = (down * a).to_f64() as f32;
             *y = (down * b).to_f64() as f32;
             *z = (down * c).to_f64() as f32;
@@ -116,13 +116,26 @@ impl<'a, T: Real, D: Dispatch> Preconditioner<'a, T, D> {
     fn solved(&self, most: T) -> impl Iterator<Item = Vec3<T>> {
         let up = most * self.scale;
         let finest = self.hierarchy.levels.first().and_then(|level| level.as_ref());
-        let planes = finest.map(|level| &level.x.0);
-        let rows = planes.map(|[x, y, z]| x.iter().zip(y.iter()).zip(z.iter()).skip(WIDTH));
-        rows.into_iter().flatten().map(move |((x, y), z)| {
+        let [x, y, z] = finest.map_or([&[][..]; 3], |level| {
+            let [x, y, z] = &level.x.0;
+            [rows_of(x), rows_of(y), rows_of(z)]
+        });
+        x.iter().zip(y).zip(z).map(move |((x, y), z)| {
             let of = |x: f32| up * T::from_f64(f64::from(x));
             [of(*x), of(*y), of(*z)]
         })
     }
+}
+
+/// A plane from its first row on.
+#[inline(always)]
+fn rows_of(plane: &[f32]) -> &[f32] {
+    plane.get(WIDTH..).unwrap_or_default()
+}
+
+#[inline(always)]
+fn rows_mut(plane: &mut [f32]) -> &mut [f32] {
+    plane.get_mut(WIDTH..).unwrap_or_default()
 }
 
 impl<T: Real, D: Dispatch> wide::solve::Preconditioner<T> for Preconditioner<'_, T, D> {
