@@ -119,8 +119,8 @@ pub(super) fn each_run<K: Kind>(runs: &[Run], blocks: &[f32], mut visit: impl Fn
     }
 }
 
-/// Where a run meets the rows from i on, `n` of them, both multiples of a tile: calls `visit(row, place of its block, number of
-/// rows)` for those whose edges go up, and whose edges go down.
+/// Where a run meets the rows from i on, `n` of them, both multiples of a tile: first row, place of its block and number of
+/// rows of those whose edges go up, and of those whose edges go down.
 #[inline(always)]
 pub(super) fn meet([first, offset, tiles]: Run, i: usize, n: usize) -> [[usize; 3]; 2] {
     let (first, offset, rows) = (first as usize, offset as usize, WIDTH * tiles as usize);
