@@ -7,7 +7,7 @@
 //! a tile may reach past the end.
 
 use super::block::{FULL, Kind, TIED};
-use super::planes::{Planes, Planes6, plane};
+use super::planes::{LINE, Planes, Planes6, plane};
 use super::runs::{Extent, Run, length};
 use super::tile::{Tile6, WIDTH};
 use super::words::{align, take};
@@ -15,13 +15,11 @@ use super::words::{align, take};
 /// Planes of a level: mass; inverse diagonal blocks; x, r, twice d.
 const PLANES: usize = 1 + 6 + 12;
 
-/// Numbers of a level but for its blocks.
+/// Numbers of a level but for its blocks; of several, if rows are those of all of them, `numbers(WIDTH - 1)` more for each.
 pub(super) const fn numbers(rows: usize) -> usize {
-    PLANES * plane(rows) + FULL * rows + WIDTH + LINE
+    let plain = WIDTH * (rows.div_ceil(WIDTH) + 2);
+    PLANES * (plain + plain / 4) + FULL * rows + WIDTH + LINE
 }
-
-/// Numbers in a line of the cache.
-pub(super) const LINE: usize = 16;
 
 /// Sizes of a level.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
