@@ -6,7 +6,8 @@
 use super::block::{FULL, TIED};
 use super::level::Level;
 use super::planes::Planes;
-use super::runs::{LOOSE, length};
+use super::runs::LOOSE;
+use super::strides::Strides;
 use super::tile::{Tile6, WIDTH};
 use super::words::{NONE, get, set};
 use crate::force::Force;
@@ -47,44 +48,6 @@ fn add_to_row(held: &mut [[f32; 6]], row: usize, block: [f32; 6]) {
         for (held, value) in held.iter_mut().zip(block) {
             *held += value;
         }
-    }
-}
-
-/// Lengths of the planes of a level's runs, found by a block's place.
-struct Strides<'p> {
-    runs: &'p [super::runs::Run],
-    numbers: usize,
-    /// Places up to which the present run reaches, and its planes' length
-    end: usize,
-    stride: usize,
-    next: usize,
-}
-
-impl<'p> Strides<'p> {
-    fn new(runs: &'p [super::runs::Run], numbers: usize) -> Self {
-        Self { runs, numbers, end: 0, stride: 0, next: 0 }
-    }
-
-    /// The length of the planes of the run that `place` is in.
-    #[inline(always)]
-    fn of(&mut self, place: usize) -> usize {
-        if place < self.end && place + self.numbers * self.stride >= self.end {
-            return self.stride;
-        }
-        self.find(place)
-    }
-
-    fn find(&mut self, place: usize) -> usize {
-        if place < self.end {
-            (self.end, self.next) = (0, 0);
-        }
-        while place >= self.end {
-            let Some(run) = self.runs.get(self.next) else { return 0 };
-            self.stride = length(run[2] as usize);
-            self.end += self.numbers * self.stride;
-            self.next += 1;
-        }
-        self.stride
     }
 }
 
@@ -204,50 +167,6 @@ impl Level<'_> {
             self.held_count += 1;
         }
     }
-
-    /// The level's blocks as (row, column, block), to be added up.
-    pub(super) fn each_block(&self, mut visit: impl FnMut(usize, usize, [f32; 6])) {
-        let rows = self.pattern.size.rows;
-        for (i, (mass, held)) in self.mass.iter().skip(WIDTH).zip(self.held.iter()).enumerate().take(rows) {
-            visit(i, i, Sym3::scalar(*mass).0);
-            visit(i, i, *held);
-        }
-        let mut edge = |a: usize, b: usize, block: [f32; 6]| {
-            visit(a, a, block);
-            visit(b, b, block);
-            let minus = block.map(|x| -x);
-            visit(a, b, minus);
-            visit(b, a, minus);
-        };
-        if self.tied {
-            self.each_tile::<super::block::Tied>(rows, &mut edge);
-        } else {
-            self.each_tile::<super::block::Full>(rows, &mut edge);
-        }
-        let [a, b] = &self.pattern.loose;
-        for (k, (a, b)) in a.iter().zip(b.iter()).enumerate() {
-            if (*b as usize) < rows {
-                edge(*a as usize, *b as usize, loose_block(self.loose, k));
-            }
-        }
-    }
-
-    /// The edges of the runs.
-    fn each_tile<K: super::block::Kind>(&self, rows: usize, edge: &mut impl FnMut(usize, usize, [f32; 6])) {
-        super::level::each_run::<K>(self.pattern.runs, self.blocks, |[first, offset, tiles], numbers| {
-            let tiles = tiles as usize;
-            for (t, blocks) in K::tiles(numbers, length(tiles), WIDTH, WIDTH * tiles).enumerate() {
-                let matrices = K::matrices(blocks);
-                for k in 0..WIDTH {
-                    let a = first as usize + WIDTH * t + k;
-                    let b = a + offset as usize;
-                    if b < rows {
-                        edge(a, b, lane(&matrices, k));
-                    }
-                }
-            }
-        });
-    }
 }
 
 /// The block of a loose edge.
@@ -256,8 +175,9 @@ pub(super) fn loose_block(loose: &[Tile6], slot: usize) -> [f32; 6] {
     loose.get(slot / WIDTH).map_or([0.0; 6], |tile| lane(tile, slot % WIDTH))
 }
 
+/// Matrix k of a tile.
 #[inline(always)]
-fn lane(tile: &Tile6, k: usize) -> [f32; 6] {
+pub(super) fn lane(tile: &Tile6, k: usize) -> [f32; 6] {
     tile.map(|entries| entries.get(k).copied().unwrap_or(0.0))
 }
 

@@ -7,7 +7,7 @@
 //! a tile may reach past the end.
 
 use super::block::{FULL, Kind, TIED};
-use super::planes::{Planes, Planes6, plane};
+use super::planes::{LINE, Planes, Planes6, plane};
 use super::runs::{Extent, Run, length};
 use super::tile::{Tile6, WIDTH};
 use super::words::{align, take};
@@ -15,13 +15,11 @@ use super::words::{align, take};
 /// Planes of a level: mass; inverse diagonal blocks; x, r, twice d.
 const PLANES: usize = 1 + 6 + 12;
 
-/// Numbers of a level but for its blocks.
+/// Numbers of a level but for its blocks; of several, if rows are those of all of them, `numbers(WIDTH - 1)` more for each.
 pub(super) const fn numbers(rows: usize) -> usize {
-    PLANES * plane(rows) + FULL * rows + WIDTH + LINE
+    let plain = WIDTH * (rows.div_ceil(WIDTH) + 2);
+    PLANES * (plain + plain / 4) + FULL * rows + WIDTH + LINE
 }
-
-/// Numbers in a line of the cache.
-pub(super) const LINE: usize = 16;
 
 /// Sizes of a level.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
@@ -119,8 +117,8 @@ pub(super) fn each_run<K: Kind>(runs: &[Run], blocks: &[f32], mut visit: impl Fn
     }
 }
 
-/// Where a run meets the rows from i on, `n` of them, both multiples of a tile: calls `visit(row, place of its block, number of
-/// rows)` for those whose edges go up, and whose edges go down.
+/// Where a run meets the rows from i on, `n` of them, both multiples of a tile: first row, place of its block and number of
+/// rows of those whose edges go up, and of those whose edges go down.
 #[inline(always)]
 pub(super) fn meet([first, offset, tiles]: Run, i: usize, n: usize) -> [[usize; 3]; 2] {
     let (first, offset, rows) = (first as usize, offset as usize, WIDTH * tiles as usize);

@@ -3,7 +3,7 @@
 //! Rows are put together in groups of up to eight ([`matching`]), again and again ([`analysis`], once per pattern, kept behind a
 //! [`record`] that a [`fingerprint`] finds again); every level is a net of springs again ([`level`], [`galerkin`]), whose edges
 //! lie where they can be read in order ([`runs`], [`block`], [`planes`]). A [`cycle`] smooths on every level, in one [`sweep`]
-//! each way, with the inverses of the [`diagonal`] blocks, and solves the last one directly ([`dense`]). The number of
+//! each way ([`product`], [`transfer`]), with the inverses of the [`diagonal`] blocks, and solves the last one directly ([`dense`]). The number of
 //! iterations then hardly grows with the size of the net; PCG certifies the answer as ever, so a bad hierarchy costs time,
 //! never truth.
 //!
@@ -15,17 +15,22 @@ mod block;
 mod cycle;
 mod dense;
 mod diagonal;
+mod entries;
 mod fingerprint;
 mod galerkin;
 mod level;
 mod matching;
 mod planes;
 mod preconditioner;
+mod product;
 mod record;
 mod runs;
 mod sizes;
+mod springs;
+mod strides;
 mod sweep;
 mod tile;
+mod transfer;
 mod words;
 
 use crate::error::StepError;

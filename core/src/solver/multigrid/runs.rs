@@ -7,6 +7,7 @@
 //! A run's numbers lie in planes, one per number of a block, each with a tile of zeros in front; behind the last run there is
 //! one more.
 
+use super::planes::spread;
 use super::tile::WIDTH;
 use super::words::{NONE, get, set};
 
@@ -21,7 +22,7 @@ pub(super) type Run = [u32; 3];
 /// Places in a plane of a run.
 #[inline(always)]
 pub(super) const fn length(tiles: usize) -> usize {
-    WIDTH * (tiles + 1)
+    spread(WIDTH * (tiles + 1))
 }
 
 /// How much room an arrangement takes.
@@ -110,7 +111,7 @@ fn stretches(ends: [&[u32]; 2], mut sorted: &[u32], sparse: usize, mut visit: im
         let (stretch, rest) = sorted.split_at_checked(edges).unwrap_or_default();
         let first = first - first % WIDTH as u32;
         let tiles = (last - first) as usize / WIDTH + 1;
-        let run = (length(tiles) <= sparse * pairs).then_some(tiles);
+        let run = (WIDTH * (tiles + 1) <= sparse * pairs).then_some(tiles);
         visit(&Stretch { edges: stretch, first, offset, run });
         sorted = rest;
     }
