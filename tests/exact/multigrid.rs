@@ -187,10 +187,10 @@ fn iterations(n: usize) -> (u32, u32) {
     (most, most_plain)
 }
 
-/// Seen: 16, 20 and 25 at most. A fifth more is allowed.
+/// Seen: 14, 16 and 22 at most. A fifth more is allowed.
 #[test]
 fn iterations_hardly_grow_with_the_cloth() {
-    for (n, allowed, gain) in [(16, 20, 3), (32, 24, 7), (64, 30, 12)] {
+    for (n, allowed, gain) in [(16, 17, 3), (32, 19, 7), (64, 26, 12)] {
         let (most, plain) = iterations(n);
         println!("cloth:{n}: {most} iterations, block Jacobi {plain}");
         assert!(most <= allowed, "cloth:{n} took {most}");
