@@ -93,15 +93,19 @@ impl Level<'_> {
                     continue;
                 }
                 let (d, next) = if number % 2 == 0 { (&*even, &mut *odd) } else { (&*odd, &mut *even) };
+                // Two questions after one another: a table of jumps would leave the stack without a bound.
                 if matches!(stage, Stage::Smooth(..) | Stage::Restrict) {
                     subtract::<K>(pattern.runs, blocks, d, mass, r, next, [i, n]);
                     subtract_held(held_rows, held_blocks, held, i + n, d, r);
-                }
-                match *stage {
-                    Stage::Start(c) => start(c, inverse, r, x, next, [i, n]),
-                    Stage::Prolong(over) => prolong(over, pattern.aggregate, coarse_x, x, next, [i, n]),
-                    Stage::Smooth(a, c) => smooth([a, c], inverse, r, d, x, next, [i, n]),
-                    Stage::Restrict => scatter(pattern.aggregate, r, coarse_r, [i, n]),
+                    if let Stage::Smooth(a, c) = *stage {
+                        smooth([a, c], inverse, r, d, x, next, [i, n]);
+                    } else {
+                        scatter(pattern.aggregate, r, coarse_r, [i, n]);
+                    }
+                } else if let Stage::Start(c) = *stage {
+                    start(c, inverse, r, x, next, [i, n]);
+                } else if let Stage::Prolong(over) = *stage {
+                    prolong(over, pattern.aggregate, coarse_x, x, next, [i, n]);
                 }
             }
             end += BLOCK;
