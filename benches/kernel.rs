@@ -1,4 +1,5 @@
-//! Time of the kernel's parts: the product A x, the assembly of a step, the preconditioners, a whole step with each solver.
+//! Time of the kernel's parts: the product A x, the assembly of a step, the preconditioners, a whole step with each solver,
+//! many scenes.
 //!
 //! `cargo bench -p hooke-benches`. Times hold for one machine and one hour; compare ratios within one run.
 
@@ -8,6 +9,7 @@ use std::time::{Duration, Instant};
 use criterion::{BenchmarkId, Criterion, Throughput, criterion_group, criterion_main};
 use hooke::{Jacobi, Multigrid, Operator, Preconditioner};
 use hooke_benches::{HostScene, moving};
+use hooke_harness::batch::{self, Member};
 use hooke_harness::host::Host;
 use hooke_harness::run::solver::{AnySolver, METHODS};
 use hooke_harness::scene::catalog;
@@ -132,5 +134,37 @@ fn step(c: &mut Criterion) {
     }
 }
 
-criterion_group!(benches, operator, assembly, preconditioner, multigrid, step);
+/// Independent scenes on threads: steps of a scene per second, on the wall's clock. On an idle machine of two cores, two
+/// threads should nearly double it.
+fn batch(c: &mut Criterion) {
+    const STEPS: u64 = 4;
+    let mut group = c.benchmark_group("batch");
+    group.sample_size(10);
+    for (name, count) in [("chain:40", 256), ("cloth:32", 16)] {
+        let mut members: Vec<_> = (0..count)
+            .map(|_| {
+                let (scene, integrator) = moving(name);
+                Member { scene, integrator }
+            })
+            .collect();
+        let start = [members[0].scene.positions().to_vec(), members[0].scene.velocities().to_vec()];
+        group.throughput(Throughput::Elements(count * STEPS));
+        for threads in [1, 2] {
+            group.bench_function(BenchmarkId::new(format!("{count} of {name}, threads"), threads), |bench| {
+                bench.iter_custom(|times| {
+                    let mut spent = Duration::ZERO;
+                    for _ in 0..times {
+                        members.iter_mut().for_each(|member| put_back(&mut member.scene, &start));
+                        let began = Instant::now();
+                        black_box(batch::step(&mut members, STEPS, threads));
+                        spent += began.elapsed();
+                    }
+                    spent
+                });
+            });
+        }
+    }
+}
+
+criterion_group!(benches, operator, assembly, preconditioner, multigrid, step, batch);
 criterion_main!(benches);

@@ -37,10 +37,14 @@ pub(crate) struct Args {
     /// How time and memory of Hooke's methods grow: cloth:32 to 512, lattices up to 10⁶ springs (or the SCENEs given)
     #[arg(long)]
     pub(crate) growth: bool,
+    /// What `hooke run --solver auto` should choose: every solver on a grid of scenes, steps and tolerances, who wins, and
+    /// the weights that fit (or on the SCENEs, the --dt, the --tolerance given)
+    #[arg(long, conflicts_with_all = ["growth", "all"])]
+    pub(crate) choose: bool,
     /// The plot of --growth [default: out/growth.svg]
     #[arg(long, value_name = "FILE", requires = "growth")]
     pub(crate) svg: Option<PathBuf>,
-    /// Overrides of the scenes, as `hooke run` takes them: --stiffness --mass --gravity --velocity --pin --dt
+    /// Overrides of the scenes, as `hooke run` takes them: --stiffness --mass --gravity --velocity --pin --dt --renumber
     #[arg(last = true, value_name = "FLAGS", allow_hyphen_values = true)]
     pub(crate) flags: Vec<String>,
 }
@@ -65,7 +69,8 @@ const ALL: [&str; 6] = ["cloth:32", "cloth:64", "cloth:128", "cloth:256", "chain
 const STEPS: [f64; 2] = [1.0 / 60.0, 1.0 / 1000.0];
 
 /// The options of `hooke run` that change a scene.
-const OVERRIDES: [&str; 6] = ["--stiffness", "--mass", "--gravity", "--velocity", "--pin", "--dt"];
+const OVERRIDES: [&str; 7] =
+    ["--stiffness", "--mass", "--gravity", "--velocity", "--pin", "--dt", "--renumber"];
 
 impl Args {
     /// Parses a command line, the program's name first. `Err(Ok(text))` is help to print, `Err(Err(e))` bad input.

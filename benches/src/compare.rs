@@ -17,7 +17,7 @@ use crate::iteration::{self, Iteration};
 use crate::measure::{self, Measured, Request};
 use crate::operator::{self, Product};
 use crate::scenario::{Euler, Scenario};
-use crate::{growth, memory, methods, output, summary, table};
+use crate::{choose, growth, memory, methods, output, summary, table};
 
 /// How it can go wrong.
 pub(crate) enum Wrong {
@@ -41,7 +41,7 @@ pub(crate) trait Job {
 
 /// Builds the scene with only the forces that it has, and does the job: what a scene does not name costs it nothing.
 pub(crate) fn with_scene<J: Job>(plan: &Plan, job: J) -> Result<J::Output, Wrong> {
-    let model = &plan.model;
+    let model = &*plan.ordered();
     let euler: Euler<_> = LinearlyImplicitEuler::new(plan.dt).with(Gravity(model.gravity));
     if model.drag == 0.0 && !model.is_damped() {
         return job.run(Scenario::new(model, euler)?);
@@ -147,7 +147,11 @@ pub fn main() -> ExitCode {
         Err(Err(error)) => return complained(&error.to_string(), 2),
     };
     let svg = args.svg.clone().unwrap_or_else(|| PathBuf::from("out/growth.svg"));
-    let done = if args.growth { growth::growth(&args, &svg) } else { compare(&args) };
+    let done = match (args.growth, args.choose) {
+        (true, _) => growth::growth(&args, &svg),
+        (_, true) => choose::choose(&args),
+        _ => compare(&args),
+    };
     match done {
         Ok(text) => said(&text),
         Err(Wrong::Input(error)) => complained(&error.to_string(), 2),

@@ -25,6 +25,7 @@ mod operator;
 
 // ... and what is made of it.
 mod args;
+mod choose;
 mod compare;
 mod family;
 mod fit;
@@ -35,6 +36,7 @@ mod output;
 mod row;
 mod summary;
 mod table;
+mod weights;
 
 pub use compare::main as compare;
 pub use moving::{Euler, HostScene, moving};

@@ -59,8 +59,8 @@ pub struct RunArgs {
     /// Time integration: euler
     #[arg(long, value_name = "NAME", default_value = "euler", help_heading = "Method")]
     pub integrator: String,
-    /// Linear solver: jacobi (block-Jacobi PCG), wide (the same in vector registers: cloths, nets, lattices), multigrid (PCG whose iterations hardly grow with the net), banded (LDLᵀ in the order of the particles: chains, ropes, thin nets) or ldl
-    /// (sparse LDLᵀ)
+    /// Linear solver: jacobi (block-Jacobi PCG), wide (the same in vector registers: cloths, nets, lattices), multigrid (PCG whose iterations hardly grow with the net), banded (LDLᵀ in the order of the particles: chains, ropes, thin nets), ldl
+    /// (sparse LDLᵀ) or auto (the one of least work for this scene, step and tolerance; says which and why)
     #[arg(long, value_name = "NAME", default_value = "jacobi", help_heading = "Method")]
     pub solver: String,
     /// Relative tolerance of a solve: stop at β ≤ R²β₀ [default: 1e-6 in f64, 1e-4 in f32]
@@ -72,6 +72,10 @@ pub struct RunArgs {
     /// At most so many iterations per island and step [default: 10000]
     #[arg(long, value_name = "N", help_heading = "Method")]
     pub max_iterations: Option<u32>,
+    /// Another numbering of the particles inside the run: rcm puts those that springs join close together (reverse
+    /// Cuthill–McKee), for meshes numbered at random; every output keeps your ids, last digits may differ
+    #[arg(long, value_enum, value_name = "HOW", default_value_t = Renumber::None, help_heading = "Method")]
+    pub renumber: Renumber,
     /// Precision of the simulation
     #[arg(long, value_enum, default_value_t = Precision::F64, help_heading = "Method")]
     pub precision: Precision,
@@ -117,6 +121,16 @@ pub enum Precision {
     F64,
     /// Single.
     F32,
+}
+
+/// How the particles are numbered inside a run.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Default, ValueEnum)]
+pub enum Renumber {
+    /// As the scene has them.
+    #[default]
+    None,
+    /// Reverse Cuthill–McKee.
+    Rcm,
 }
 
 /// Three numbers, `X,Y,Z`.

@@ -1,5 +1,6 @@
 //! The host side of Hooke: meshes in, simulation, pictures and files out. It holds no numerics; those are in `hooke`.
 
+pub mod batch;
 pub mod cli;
 pub mod error;
 pub mod heap;

@@ -246,6 +246,107 @@ fn a_mesh_runs_with_the_defaults_of_the_contract() {
     assert!((rows(&folder, "f.csv")[0][5].parse::<f64>().unwrap() + 9.81).abs() < 1e-9);
 }
 
+/// A strip of triangles whose points come in no order: that at place k has the id k⁷ mod 31.
+fn strip() -> String {
+    let id = |place: usize| (0..7).fold(1, |product, _| product * place % 31);
+    let mut points = vec![String::new(); 31];
+    for place in 0..31 {
+        let (x, y) = (place / 2, place % 2);
+        points[id(place)] = format!("v {x} {y} {}\n", 0.1 * (x % 3) as f64);
+    }
+    let face = |k: usize| format!("f {} {} {}\n", id(k) + 1, id(k + 1) + 1, id(k + 2) + 1);
+    points.concat() + &(0..29).map(face).collect::<String>()
+}
+
+#[test]
+fn renumbering_changes_no_id_in_any_output() {
+    let folder = Scratch::new();
+    folder.write("strip.obj", strip());
+    let options = "--pin vertices:0,1 --dt 0.02 --steps 20 --tolerance 1e-12 --fps 25 --quiet";
+    for (name, how) in [("as-is", "none"), ("new", "rcm")] {
+        folder.ok(&format!(
+            "run strip.obj {options} --renumber {how} --final {name}.csv --json {name}.json --out {name}"
+        ));
+        let f: Value =
+            serde_json::from_str(&fs::read_to_string(folder.path(&format!("{name}.json"))).unwrap()).unwrap();
+        assert_eq!(f["renumbered"].as_bool(), Some(how == "rcm"));
+    }
+    let (old, new) = (rows(&folder, "as-is.csv"), rows(&folder, "new.csv"));
+    assert_ne!(old, new, "another order of sums has other last digits");
+    for (old, new) in old.iter().zip(&new) {
+        assert_eq!(old[0], new[0]);
+        for (a, b) in old[1..].iter().zip(&new[1..]) {
+            // The contract of tight trajectories, as in the tests' table of allowed errors.
+            assert!((a.parse::<f64>().unwrap() - b.parse::<f64>().unwrap()).abs() <= 1e-9, "{old:?} {new:?}");
+        }
+    }
+    // The start holds no rounding yet: the same points, pins and springs in the same places, byte for byte.
+    let frame = |name: &str| fs::read(folder.path(&format!("{name}/frame_00000.vtp"))).unwrap();
+    assert_eq!(frame("as-is"), frame("new"));
+}
+
+#[test]
+fn errors_and_moving_pins_name_particles_as_the_user_does_in_a_renumbered_run() {
+    let folder = Scratch::new();
+    folder.write("strip.obj", strip());
+    // The pins 0 and 1 are the first two of the strip; only 1 moves.
+    folder.write("t.toml", "mesh = \"strip.obj\"\npins = [0, 1]\n[[moving]]\nparticles = [1]\nlinear = { velocity = [0.0, 0.0, 1.0] }\n");
+    let ran = folder.ok("run t.toml --renumber rcm --dt 0.25 --steps 2 --final f.csv").stdout;
+    assert!(ran.contains("renumbered: springs reach"), "{ran}");
+    let end = rows(&folder, "f.csv");
+    assert_eq!(
+        (end[0][1..].join(","), end[1][1..].join(",")),
+        ("0,0,0,0,0,0".into(), "0,1,0.5,0,0,1".into())
+    );
+    // All particles but 30 are pinned, and it flies out of the range of f64.
+    let pins = (0..30).map(|i| i.to_string()).collect::<Vec<_>>().join(",");
+    let line = format!(
+        "run strip.obj --renumber rcm --stiffness 0 --pin vertices:{pins} --velocity 5e307,0,0 --dt 1.5 --steps 9 --final g.csv --quiet"
+    );
+    let ran = folder.hooke(&line.split_whitespace().collect::<Vec<_>>());
+    assert!(ran.code == 1 && ran.stderr.contains("particle 30"), "{ran:?}");
+    assert_eq!(rows(&folder, "g.csv")[30][4].parse(), Ok(5e307));
+}
+
+#[test]
+fn a_numbering_that_is_good_already_is_kept_and_said() {
+    let folder = Scratch::new();
+    for scene in ["cloth:6", "chain:9", "lattice:6x5x4", "curtain"] {
+        let ran = folder.ok(&format!("run {scene} --steps 1 --renumber rcm --json f.json")).stdout;
+        assert!(ran.contains("not renumbered: springs join particles at few distances already"), "{ran}");
+    }
+}
+
+#[test]
+fn auto_says_what_it_took_and_why_and_gives_that_solvers_bits() {
+    let folder = Scratch::new();
+    folder.write("strip.obj", strip());
+    for line in
+        ["chain:30 --steps 9", "cloth:9 --steps 9", "strip.obj --pin vertices:0 --steps 9 --precision f32"]
+    {
+        let run = |options: &str| {
+            let ran = folder.ok(&format!("run {line} {options} --final f.csv --json f.json")).stdout;
+            let json: Value =
+                serde_json::from_str(&fs::read_to_string(folder.path("f.json")).unwrap()).unwrap();
+            (ran, json, fs::read(folder.path("f.csv")).unwrap())
+        };
+        let (said, chosen, bits) = run("--solver auto");
+        let (name, reason) = (chosen["solver"].as_str().unwrap(), chosen["solver_reason"].as_str().unwrap());
+        assert!(said.contains(&format!("auto took {name}: {reason}")), "{said}");
+        assert!(reason.contains(&format!(
+            "least work foretold (µs a step, on the machine it was weighed on): {name} "
+        )));
+        assert_eq!(
+            (run("--solver auto").1["solver_reason"].as_str(), run("--solver auto").2),
+            (Some(reason), bits.clone())
+        );
+        let (_, named, expected) = run(&format!("--solver {name}"));
+        assert_eq!((named["solver"].as_str(), &named["solver_reason"]), (Some(name), &Value::Null));
+        assert_eq!(bits, expected, "{line}: {name}");
+    }
+    assert_eq!(figures("cloth:4 --steps 1")["solver"].as_str(), Some("jacobi"));
+}
+
 #[test]
 fn a_name_wins_over_a_file_and_a_path_is_the_file() {
     let folder = Scratch::new();
@@ -275,7 +376,7 @@ fn help_names_every_command_option_and_scene() {
     for word in ["run", "info", "cloth:N"] {
         assert!(help.contains(word), "{word} in {help}");
     }
-    let options = "--dt --steps --seconds --integrator --solver --tolerance --absolute --max-iterations --precision \
+    let options = "--dt --steps --seconds --integrator --solver --tolerance --absolute --max-iterations --renumber --precision \
                    --stiffness --mass --gravity --velocity --pin --out --fps --final --json --quiet";
     let scenes = "curtain cloth:N net:N syrup:N chain:N lattice:AxBxC spring pair";
     for word in options.split_whitespace().chain(scenes.split_whitespace()) {
@@ -328,6 +429,9 @@ fn bad_options_and_names_are_refused() {
         ("run cloth:4 --integrator eulr", vec!["'eulr'", "'euler'"]),
         ("run cloth:4 --solver jacob", vec!["'jacob'", "'jacobi'"]),
         ("run cloth:4 --solver bandet", vec!["'bandet'", "'banded'"]),
+        ("run cloth:4 --solver aut", vec!["'aut'", "'auto'"]),
+        ("run cloth:4 --renumber rmc", vec!["--renumber", "'rmc'", "'rcm'"]),
+        ("run cloth:4 --renumber", vec!["--renumber"]),
         ("run cloth:4 --precision f16", vec!["f16", "f32"]),
         ("run cloth:4 --stepz 3", vec!["--stepz", "'--steps'"]),
         ("run cloth:4 --fsp 3", vec!["--fsp", "'--fps'"]),

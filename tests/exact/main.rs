@@ -4,6 +4,7 @@
 // Indices are those of the formulas.
 #![allow(clippy::needless_range_loop)]
 
+mod batch;
 mod cables;
 mod catenary;
 mod coincident;

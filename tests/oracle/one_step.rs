@@ -2,6 +2,8 @@
 //! and the stated rounding of assembly allow.
 
 use hooke::{BlockJacobi, Real, Solver};
+use hooke_harness::scene::Model;
+use hooke_harness::scene::renumber::Numbering;
 use hooke_tests::build::{self, Forces};
 use hooke_tests::data::{MotionData, SceneData, distance};
 use hooke_tests::dense::Dense;
@@ -210,4 +212,62 @@ fn permuted<T: Real>(relatives: &[f64], unit: f64, seed: u64) {
 fn permuting_the_springs_moves_one_step_by_no_more_than_the_two_bounds_and_rounding() {
     permuted::<f64>(&[1e-2, 1e-6, 1e-12], allowed::U64, 4);
     permuted::<f32>(&[1e-2, 1e-4], allowed::U32, 5);
+}
+
+/// Reverse Cuthill–McKee, and the scene and its pins' motion in that numbering.
+fn renumbered(data: &SceneData, motion: &[MotionData]) -> (Numbering, SceneData, Vec<MotionData>) {
+    let mut model = Model::at_rest("", data.position.clone(), 1.0);
+    (model.velocity, model.mass, model.pinned) =
+        (data.velocity.clone(), data.mass.clone(), data.pinned.clone());
+    for (j, spring) in data.springs.iter().enumerate() {
+        model.join(spring.a, spring.b, j as f64);
+    }
+    let numbering = Numbering::reverse_cuthill_mckee(&model);
+    let new = numbering.model(&model);
+    let mut number = vec![0; data.len()];
+    (0..data.len()).for_each(|i| number[numbering.users_particle(i)] = i);
+    let mut moved = data.clone();
+    (moved.position, moved.velocity, moved.mass, moved.pinned) =
+        (new.position, new.velocity, new.mass, new.pinned);
+    let spring = |s: &hooke_harness::scene::ModelSpring| {
+        let [a, b] = s.ends;
+        hooke_tests::data::SpringData { a, b, ..data.springs[s.stiffness as usize] }
+    };
+    moved.springs = new.springs.iter().map(spring).collect();
+    moved.points.iter_mut().for_each(|point| point.particle = number[point.particle]);
+    let motion = motion.iter().map(|m| MotionData { particle: number[m.particle], ..*m }).collect();
+    (numbering, moved, motion)
+}
+
+fn in_another_numbering<T: Real>(relatives: &[f64], unit: f64, seed: u64) {
+    let mut random = Random::new(Random::seed(seed));
+    let mut other_numbers = 0;
+    for case in 0..60 {
+        let (data, motion) = network(&mut random);
+        let data = data.rounded_to_f32();
+        if data.pinned.iter().all(|pinned| *pinned) {
+            continue;
+        }
+        let h = f64::from(random.decade(1e-3, 0.03) as f32);
+        let (numbering, new, new_motion) = renumbered(&data, &motion);
+        other_numbers += usize::from(new.position != data.position);
+        for relative in relatives {
+            let (a, upper_a, clamped_a) = step::<T>(&data, h, *relative, &motion, BlockJacobi);
+            let (b, upper_b, clamped_b) = step::<T>(&new, h, *relative, &new_motion, BlockJacobi);
+            assert_eq!(clamped_a, clamped_b);
+            let dense = Dense::new(&data);
+            let (after, _) = dense.step(h, &motion);
+            let off = apart(&dense, h, &motion, &a, &numbering.restored(&b));
+            let rounding = assembly_rounding(&data, &after, h, &motion, unit);
+            let allowed = (2.0 * upper_a).sqrt() + (2.0 * upper_b).sqrt() + 2.0 * rounding;
+            assert!(off <= allowed, "case {case}, R = {relative:e}: {off:e} of {allowed:e}");
+        }
+    }
+    assert!(other_numbers > 30);
+}
+
+#[test]
+fn renumbering_the_particles_moves_one_step_by_no_more_than_the_two_bounds_and_rounding() {
+    in_another_numbering::<f64>(&[1e-2, 1e-6, 1e-12], allowed::U64, 6);
+    in_another_numbering::<f32>(&[1e-2, 1e-4], allowed::U32, 7);
 }

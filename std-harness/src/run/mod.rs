@@ -1,10 +1,12 @@
 //! `hooke run`: plan, simulate, record, sum up.
 
+pub mod auto;
 pub mod outcome;
 pub mod plan;
 pub mod recorder;
 pub mod simulation;
 pub mod solver;
+pub mod structure;
 pub mod summary;
 
 use hooke::Real;

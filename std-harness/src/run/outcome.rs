@@ -27,6 +27,10 @@ pub struct Outcome {
     pub islands: usize,
     /// Time step, s.
     pub dt: f64,
+    /// How the linear systems were solved.
+    pub solver: &'static str,
+    /// Why, if that was left to the program.
+    pub solver_reason: Option<String>,
     /// Steps made.
     pub steps: u64,
     /// Wall-clock time of the run, outputs included, s.
@@ -115,6 +119,8 @@ impl Outcome {
             free: simulation.scene.free_particles(),
             islands: simulation.scene.islands(),
             dt: plan.dt,
+            solver: plan.method.name(),
+            solver_reason: plan.reason.clone(),
             steps: 0,
             wall_s: 0.0,
             step_ms: 0.0,
@@ -134,7 +140,7 @@ impl Outcome {
             error_bound_j: 0.0,
             error_lower_j: 0.0,
             workspace_bytes: simulation.workspace_bytes(),
-            renumbered: false,
+            renumbered: plan.numbering.is_some(),
             speed_max: simulation.fastest().1,
             failure: None,
             energy,

@@ -1,15 +1,18 @@
 //! What a run will do, decided and checked before anything is simulated or written: the scene with its overrides, the
 //! step, the method, the outputs. An option wins over the scene file, the scene file over the defaults.
 
+use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
-use crate::cli::{Precision, RunArgs};
+use crate::cli::{Precision, Renumber, RunArgs};
 use crate::error::InputError;
 use crate::nearest;
 use crate::output::safe;
+use crate::run::auto;
 use crate::run::recorder::FILES;
-use crate::run::solver::{METHODS, Method};
-use crate::scene::{Model, source};
+use crate::run::solver::{METHODS, Method, in_lanes};
+use crate::scene::renumber::Numbering;
+use crate::scene::{Model, renumber, source};
 
 /// The most steps a run may have.
 const MOST_STEPS: f64 = 1e9;
@@ -19,6 +22,8 @@ const MOST_STEPS: f64 = 1e9;
 pub struct Plan {
     /// The scene, overrides applied.
     pub model: Model,
+    /// How the particles are numbered inside the run, if not as in `model`.
+    pub numbering: Option<Numbering>,
     /// Time step, s.
     pub dt: f64,
     /// Number of steps.
@@ -31,6 +36,8 @@ pub struct Plan {
     pub max_iterations: Option<u32>,
     /// How the linear systems are solved.
     pub method: Method,
+    /// Why, if it was left to the program.
+    pub reason: Option<String>,
     /// Precision.
     pub precision: Precision,
     /// Folder for frames, plot and picture.
@@ -78,7 +85,8 @@ impl Plan {
     /// Decides a run from its options.
     pub fn new(args: &RunArgs) -> Result<Self, InputError> {
         known("integrator", &args.integrator, &["euler"])?;
-        let solver = known("solver", &args.solver, &METHODS.map(|(name, _)| name))?;
+        let solvers: Vec<&str> = METHODS.iter().map(|(name, _)| *name).chain(["auto"]).collect();
+        let solver = known("solver", &args.solver, &solvers)?;
         let loaded = source::load(args.scene.as_deref().unwrap_or("curtain"))?;
         let (mut model, wanted, inputs) = (loaded.model, loaded.outputs, loaded.files);
         override_model(&mut model, args)?;
@@ -104,6 +112,10 @@ impl Plan {
                 .notes
                 .push(format!("{seconds} s is no whole number of steps: the last one ends at {end} s"));
         }
+        let numbering = match args.renumber {
+            Renumber::None => None,
+            Renumber::Rcm => renumbered(&mut model),
+        };
         let tolerance = args.tolerance.map(|r| not_negative("--tolerance", r)).transpose()?;
         let absolute = not_negative("--absolute", args.absolute.unwrap_or(0.0))?;
         let fps = positive("--fps", args.fps.or(wanted.fps).unwrap_or(60.0))?;
@@ -112,14 +124,16 @@ impl Plan {
             (args.final_csv.clone().or(wanted.final_csv), args.json.clone().or(wanted.json));
         let only_files = final_csv.is_some() || json.is_some();
         let out = args.out.clone().or(wanted.dir).or_else(|| (!only_files).then(|| PathBuf::from("out")));
-        Ok(Self {
+        let mut plan = Self {
             model,
+            numbering,
             dt,
             steps: steps as u64,
             tolerance,
             absolute,
             max_iterations: args.max_iterations,
-            method: METHODS[solver].1,
+            method: METHODS.get(solver).map_or(Method::Jacobi, |(_, method)| *method),
+            reason: None,
             precision: args.precision,
             out,
             fps,
@@ -127,7 +141,20 @@ impl Plan {
             json,
             inputs,
             quiet: args.quiet,
-        })
+        };
+        if solver == METHODS.len() {
+            let choice = auto::choose(&plan.ordered(), dt, plan.tolerance, plan.precision);
+            (plan.method, plan.reason) = (choice.method, Some(choice.reason));
+        }
+        Ok(plan)
+    }
+
+    /// The scene in the order that the kernel gets it.
+    pub fn ordered(&self) -> Cow<'_, Model> {
+        match &self.numbering {
+            Some(numbering) => Cow::Owned(numbering.model(&self.model)),
+            None => Cow::Borrowed(&self.model),
+        }
     }
 
     /// Makes sure that every output can be written, before the first step.
@@ -179,6 +206,25 @@ fn resolved(path: &Path) -> PathBuf {
         (Ok(parent), Some(name)) => parent.join(name),
         _ => path.to_path_buf(),
     }
+}
+
+/// Reverse Cuthill–McKee where it brings springs' ends closer together, and a note of what became of it. A numbering of
+/// few distances (a grid's) is kept: lanes live on it, and what they gain is more.
+fn renumbered(model: &mut Model) -> Option<Numbering> {
+    if in_lanes(model) {
+        model.notes.push("not renumbered: springs join particles at few distances already".into());
+        return None;
+    }
+    let numbering = Numbering::reverse_cuthill_mckee(model);
+    let (old, new) = (renumber::reach(model), renumber::reach(&numbering.model(model)));
+    let reach = |(mean, most): (f64, usize)| format!("{mean:.1} rows on average and {most} at most");
+    let better = new.0 < old.0;
+    model.notes.push(if better {
+        format!("renumbered: springs reach {}, not {}", reach(new), reach(old))
+    } else {
+        format!("not renumbered: springs reach {} already; rcm would make it {}", reach(old), reach(new))
+    });
+    better.then_some(numbering)
 }
 
 fn override_model(model: &mut Model, args: &RunArgs) -> Result<(), InputError> {

@@ -109,17 +109,17 @@ impl<'a> Lists<'a> {
         let wide = |list: &[[T; 3]]| list.iter().map(|x| x.map(T::to_f64)).collect();
         let (state, springs) = (scene.state(), scene.springs());
         let mut lists = Self {
-            positions: wide(scene.positions()),
-            velocities: wide(scene.velocities()),
+            positions: wide(&simulation.positions()),
+            velocities: wide(&simulation.velocities()),
             fixed: &plan.model.pinned,
             springs: Vec::with_capacity(state.springs()),
             strain: Vec::with_capacity(state.springs()),
             tension: Vec::with_capacity(state.springs()),
         };
-        for j in 0..state.springs() {
+        for j in (0..state.springs()).map(|j| simulation.place_of_spring(j)) {
             let (Some((a, b)), Some(length)) = (state.ends(j), springs.length_of(j)) else { continue };
             let rest = state.spring(j).rest_length.to_f64();
-            lists.springs.push([a, b]);
+            lists.springs.push([a, b].map(|end| simulation.users_particle(end)));
             lists.strain.push(if rest > 0.0 { (length.to_f64() - rest) / rest } else { 0.0 });
             lists.tension.push(springs.tension_of(j).to_f64());
         }

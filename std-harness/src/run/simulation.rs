@@ -1,5 +1,6 @@
 //! A model given to the kernel: the scene, the integrator with its forces, and the pins' motion.
 
+use std::borrow::Cow;
 use std::fmt::Display;
 use std::io;
 use std::path::Path;
@@ -16,6 +17,7 @@ use crate::error::InputError;
 use crate::heap::Heap;
 use crate::output::{Energy, table};
 use crate::scene::Moving;
+use crate::scene::renumber::Numbering;
 
 /// One damping coefficient per spring.
 #[derive(Debug, Clone)]
@@ -34,10 +36,11 @@ type Forces<T> = ((((), Gravity<T>), Drag<T>), SpringDamping<Dampings<T>>);
 
 /// A running simulation in precision `T`.
 pub struct Simulation<T: Real> {
-    /// The kernel's scene.
+    /// The kernel's scene, in the kernel's numbering.
     pub scene: MassSpring<Heap<T>>,
     euler: LinearlyImplicitEuler<T, Forces<T>, AnySolver<T>>,
     solver_bytes: usize,
+    numbering: Option<Numbering>,
     moving: Vec<Moving>,
     /// Where the moving pins were at t = 0.
     origin: Vec<[f64; 3]>,
@@ -81,9 +84,9 @@ fn in_range<T: Real>(plan: &Plan) -> Result<(), InputError> {
 impl<T: Real + Display> Simulation<T> {
     /// Builds the scene and the integrator; what the kernel refuses is bad input.
     pub fn new(plan: &Plan) -> Result<Self, InputError> {
-        let model = &plan.model;
         let real = T::from_f64;
         in_range::<T>(plan)?;
+        let model = &*plan.ordered();
         let dampings = Dampings(model.springs.iter().map(|spring| real(spring.damping)).collect());
         let mut euler = LinearlyImplicitEuler::new(real(plan.dt))
             .with(Gravity(model.gravity.map(real)))
@@ -96,7 +99,11 @@ impl<T: Real + Display> Simulation<T> {
         if let Some(max_iterations) = plan.max_iterations {
             euler = euler.max_iterations(max_iterations);
         }
-        let mut scene = model.build::<T>()?;
+        // What the kernel refuses is named as the user names it.
+        let mut scene = plan.model.build::<T>()?;
+        if plan.numbering.is_some() {
+            scene = model.build::<T>()?;
+        }
         let solver = AnySolver::new(plan.method, &mut scene, model);
         let solver_bytes = solver.bytes();
         let euler = euler.solver(solver);
@@ -104,12 +111,13 @@ impl<T: Real + Display> Simulation<T> {
         euler
             .forces
             .check(model.mass.len(), model.springs.len())
-            .map_err(|e| InputError::new(e.to_string()))?;
+            .map_err(|e| InputError::new(in_users_ids(e, plan.numbering.as_ref()).to_string()))?;
         let origin = model.position.clone();
         Ok(Self {
             scene,
             euler,
             solver_bytes,
+            numbering: plan.numbering.clone(),
             moving: model.moving.clone(),
             origin,
             motion: Vec::new(),
@@ -129,7 +137,8 @@ impl<T: Real + Display> Simulation<T> {
                 self.motion.push(Motion { particle, position, velocity: rate.map(T::from_f64) });
             }
         }
-        self.scene.step_moving(&mut self.euler, &self.motion)
+        let stepped = self.scene.step_moving(&mut self.euler, &self.motion);
+        stepped.map_err(|error| in_users_ids(error, self.numbering.as_ref()))
     }
 
     /// Energies at a time, J.
@@ -158,8 +167,52 @@ impl<T: Real + Display> Simulation<T> {
         reals * size_of::<T>() + words * size_of::<u32>() + self.solver_bytes
     }
 
+    /// Positions in the order of the user's ids.
+    pub fn positions(&self) -> Cow<'_, [[T; 3]]> {
+        self.restored(self.scene.positions())
+    }
+
+    /// Velocities in the order of the user's ids.
+    pub fn velocities(&self) -> Cow<'_, [[T; 3]]> {
+        self.restored(self.scene.velocities())
+    }
+
+    fn restored<'a, X: Copy>(&self, list: &'a [X]) -> Cow<'a, [X]> {
+        match &self.numbering {
+            Some(numbering) => Cow::Owned(numbering.restored(list)),
+            None => Cow::Borrowed(list),
+        }
+    }
+
+    /// Where the user's spring `j` is in the kernel's order.
+    pub fn place_of_spring(&self, j: usize) -> usize {
+        self.numbering.as_ref().map_or(j, |numbering| numbering.place_of_spring(j))
+    }
+
+    /// What the user calls the kernel's particle `i`.
+    pub fn users_particle(&self, i: usize) -> usize {
+        self.numbering.as_ref().map_or(i, |numbering| numbering.users_particle(i))
+    }
+
     /// Writes the final CSV in this precision's own shortest decimals.
     pub fn write_final(&self, file: &Path) -> io::Result<()> {
-        table::write_final(file, self.scene.positions(), self.scene.velocities())
+        table::write_final(file, &self.positions(), &self.velocities())
+    }
+}
+
+/// The error with the particle or spring as the user numbers it. (No `_` arm: a new error must be looked at here.)
+fn in_users_ids(error: StepError, numbering: Option<&Numbering>) -> StepError {
+    use StepError::*;
+    let Some(numbering) = numbering else { return error };
+    let particle = |i| numbering.users_particle(i);
+    match error {
+        Force(i) => Force(particle(i)),
+        NoParticle(i) => NoParticle(particle(i)),
+        NotPinned(i) => NotPinned(particle(i)),
+        Motion(i) => Motion(particle(i)),
+        NotCertified(i) => NotCertified(particle(i)),
+        NotFinite(i) => NotFinite(particle(i)),
+        Damping(j) => Damping(numbering.users_spring(j)),
+        TimeStep | Tolerance | Field | Workspace { .. } => error,
     }
 }

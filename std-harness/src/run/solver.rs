@@ -34,6 +34,13 @@ pub const METHODS: [(&str, Method); 5] = [
     ("ldl", Method::Ldl),
 ];
 
+impl Method {
+    /// What `--solver` calls it.
+    pub fn name(self) -> &'static str {
+        METHODS.iter().find(|(_, method)| *method == self).map_or("", |(name, _)| name)
+    }
+}
+
 impl fmt::Display for Method {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
@@ -83,7 +90,8 @@ impl<T: Real> AnySolver<T> {
                 Self::Banded(BandedLdl::new(vec![T::ZERO; numbers]), numbers * size_of::<T>())
             }
             Method::Ldl => {
-                let order = minimum_degree(&model.pinned, model.springs.iter().map(|spring| spring.ends));
+                let (order, _) =
+                    minimum_degree(&model.pinned, model.springs.iter().map(|spring| spring.ends));
                 let (mut numbers, mut words) = (0, 0);
                 loop {
                     let mut solver = SparseLdl::new(order.clone(), vec![T::ZERO; numbers], vec![0; words]);
@@ -128,8 +136,24 @@ impl<T: Real> Solver<T> for AnySolver<T> {
     }
 }
 
-/// An order of the particles that keeps the factor of their free part sparse.
-pub fn minimum_degree(pinned: &[bool], springs: impl Iterator<Item = [usize; 2]>) -> Vec<u32> {
+/// Do the springs of some island join particles at few distances in the numbering, so that [`Method::Wide`] has lanes?
+pub fn in_lanes(model: &Model) -> bool {
+    let mut scratch = vec![0; model.springs.len()];
+    // A model that the kernel refuses has none.
+    model.build::<f64>().is_ok_and(|mut scene| WideJacobi::needs_of(&mut scene, &mut scratch).0 > 0)
+}
+
+/// How much a sparse factor is.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct Fill {
+    /// Blocks below the diagonal.
+    pub blocks: f64,
+    /// Products of two blocks that it takes to get there.
+    pub products: f64,
+}
+
+/// An order of the particles that keeps the factor of their free part sparse, and how sparse that is.
+pub fn minimum_degree(pinned: &[bool], springs: impl Iterator<Item = [usize; 2]>) -> (Vec<u32>, Fill) {
     let particles = pinned.len();
     let mut neighbours = vec![Vec::new(); particles];
     for [a, b] in springs {
@@ -146,8 +170,14 @@ pub fn minimum_degree(pinned: &[bool], springs: impl Iterator<Item = [usize; 2]>
         from.push(rows.len());
     }
     match amd::order(particles, &from, &rows, &amd::Control::default()) {
-        Ok((order, _, _)) => order.into_iter().map(|i| i as u32).collect(),
-        // Every order is right: the particles' own.
-        Err(_) => Vec::new(),
+        Ok((order, _, info)) => (
+            order.into_iter().map(|i| i as u32).collect(),
+            Fill { blocks: info.lnz as f64, products: info.n_mult_subs_ldl as f64 },
+        ),
+        // Every order is right: the particles' own. It may fill all there is.
+        Err(_) => {
+            let n = particles as f64;
+            (Vec::new(), Fill { blocks: n * n / 2.0, products: n * n * n / 6.0 })
+        }
     }
 }

@@ -60,6 +60,9 @@ pub fn text(plan: &Plan, outcome: &Outcome, recorder: &Recorder<'_>) -> String {
         line("note", note.clone());
     }
     line("method", format!("linearly-implicit Euler, {}, {precision}", plan.method));
+    if let Some(reason) = &plan.reason {
+        line("", format!("auto took {}: {reason}", plan.method.name()));
+    }
     if let Some(failure) = &o.failure {
         line("failed", failure.to_string());
     }

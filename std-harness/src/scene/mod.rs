@@ -2,8 +2,10 @@
 
 pub mod catalog;
 pub mod from_mesh;
+pub mod graph;
 pub mod motion;
 pub mod pins;
+pub mod renumber;
 pub mod source;
 pub mod toml;
 
