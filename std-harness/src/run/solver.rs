@@ -163,7 +163,9 @@ pub fn minimum_degree(pinned: &[bool], springs: impl Iterator<Item = [usize; 2]>
         }
     }
     let (mut from, mut rows) = (vec![0], Vec::new());
-    for list in &mut neighbours {
+    for (i, list) in neighbours.iter_mut().enumerate() {
+        // The diagonal bears on no order, but the crate subtracts it from the number of entries.
+        list.push(i);
         list.sort_unstable();
         list.dedup();
         rows.extend_from_slice(list);
