@@ -4,7 +4,7 @@
 //! many threads there are, nor on what the other scenes do; one that fails ends alone. Threads take scenes one by one as
 //! they get free: many short steps in one scene do not make the others wait.
 //!
-//! Cost: starting the threads, some 10 µs each, once a call, and a lock per scene; so give it many steps at a time rather
+//! Cost: starting the threads, some 30 µs each, once a call, and a lock per scene; so give it many steps at a time rather
 //! than one. Memory: nothing beyond the scenes and an answer each.
 //!
 //! Islands of one scene (ropes without a common free particle) may as well be scenes of their own: the kernel promises

@@ -191,6 +191,23 @@ fn moving_pins_reach_their_end_and_velocity_as_in_the_dense_scheme() {
     }
 }
 
+/// Two steps from one state, with their bounds, differ by no more than the two bounds and the rounding of assembly.
+fn within_the_two_bounds(
+    data: &SceneData,
+    h: f64,
+    motion: &[MotionData],
+    [(a, upper_a), (b, upper_b)]: [(Vec<[f64; 3]>, f64); 2],
+    unit: f64,
+    of: &str,
+) {
+    let dense = Dense::new(data);
+    let (after, _) = dense.step(h, motion);
+    let off = apart(&dense, h, motion, &a, &b);
+    let rounding = assembly_rounding(data, &after, h, motion, unit);
+    let allowed = (2.0 * upper_a).sqrt() + (2.0 * upper_b).sqrt() + 2.0 * rounding;
+    assert!(off <= allowed, "{of}: {off:e} of {allowed:e}");
+}
+
 fn permuted<T: Real>(relatives: &[f64], unit: f64, seed: u64) {
     let mut random = Random::new(Random::seed(seed));
     for case in 0..60 {
@@ -207,12 +224,8 @@ fn permuted<T: Real>(relatives: &[f64], unit: f64, seed: u64) {
             let (a, upper_a, clamped_a) = step::<T>(&data, h, *relative, &motion, BlockJacobi);
             let (b, upper_b, clamped_b) = step::<T>(&shuffled, h, *relative, &motion, BlockJacobi);
             assert_eq!(clamped_a, clamped_b);
-            let dense = Dense::new(&data);
-            let (after, _) = dense.step(h, &motion);
-            let off = apart(&dense, h, &motion, &a, &b);
-            let rounding = assembly_rounding(&data, &after, h, &motion, unit);
-            let allowed = (2.0 * upper_a).sqrt() + (2.0 * upper_b).sqrt() + 2.0 * rounding;
-            assert!(off <= allowed, "case {case}, R = {relative:e}: {off:e} of {allowed:e}");
+            let steps = [(a, upper_a), (b, upper_b)];
+            within_the_two_bounds(&data, h, &motion, steps, unit, &format!("case {case}, R = {relative:e}"));
         }
     }
 }
@@ -264,12 +277,8 @@ fn in_another_numbering<T: Real>(relatives: &[f64], unit: f64, seed: u64) {
             let (a, upper_a, clamped_a) = step::<T>(&data, h, *relative, &motion, BlockJacobi);
             let (b, upper_b, clamped_b) = step::<T>(&new, h, *relative, &new_motion, BlockJacobi);
             assert_eq!(clamped_a, clamped_b);
-            let dense = Dense::new(&data);
-            let (after, _) = dense.step(h, &motion);
-            let off = apart(&dense, h, &motion, &a, &numbering.restored(&b));
-            let rounding = assembly_rounding(&data, &after, h, &motion, unit);
-            let allowed = (2.0 * upper_a).sqrt() + (2.0 * upper_b).sqrt() + 2.0 * rounding;
-            assert!(off <= allowed, "case {case}, R = {relative:e}: {off:e} of {allowed:e}");
+            let steps = [(a, upper_a), (numbering.restored(&b), upper_b)];
+            within_the_two_bounds(&data, h, &motion, steps, unit, &format!("case {case}, R = {relative:e}"));
         }
     }
     assert!(other_numbers > 30);
