@@ -18,7 +18,7 @@ use crate::real::Real;
 pub(crate) const NONE: u32 = u32::MAX;
 
 /// Words at the head of a record: see [`Sizes`].
-pub(crate) const FIXED: usize = 8;
+pub(crate) const FIXED: usize = 9;
 
 /// How large an island's factor is.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -32,6 +32,8 @@ pub(crate) struct Sizes {
     pub(crate) panels: usize,
     /// Rows of the longest panel
     pub(crate) longest: usize,
+    /// Columns of the widest panel
+    pub(crate) widest: usize,
 }
 
 impl Sizes {
@@ -45,9 +47,9 @@ impl Sizes {
         3 * self.supers + self.rows
     }
 
-    /// Numbers: panels, an update, a permuted vector.
+    /// Numbers: panels, an update and the rows of L that make it, a permuted vector.
     pub(crate) fn numbers(&self) -> usize {
-        self.panels + 9 * self.longest + 3 * self.rows
+        self.panels + 18 * (self.longest + self.widest) + 3 * self.rows
     }
 }
 
@@ -331,12 +333,13 @@ impl Work<'_> {
 
     fn sizes(&self, edges: usize) -> Sizes {
         let rows = self.count.len();
-        let mut sizes = Sizes { rows, edges, supers: 0, listed: 0, panels: 0, longest: 0 };
+        let mut sizes = Sizes { rows, edges, supers: 0, listed: 0, panels: 0, longest: 0, widest: 0 };
         self.each_supernode(|first, end, length| {
             sizes.supers += 1;
             sizes.listed += length;
             sizes.panels += 9 * length * (end - first);
             sizes.longest = if length > sizes.longest { length } else { sizes.longest };
+            sizes.widest = if end - first > sizes.widest { end - first } else { sizes.widest };
         });
         sizes
     }

@@ -16,6 +16,7 @@ mod sparse_ldl;
 mod ssor;
 mod supernodes;
 mod triangle;
+mod update;
 
 pub use banded_ldl::BandedLdl;
 pub use block_ilu::BlockIlu;

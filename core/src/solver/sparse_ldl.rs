@@ -20,6 +20,7 @@ use crate::solver::supernodes::Supernodes;
 use crate::solver::{Problem, Solver, Stop};
 use crate::system::System;
 use crate::vec3::Vec3;
+use crate::wide::{Dispatch, Portable};
 
 /// Block-sparse LDLᵀ. Numbers, words and the order are the caller's: arrays, borrowed slices, vectors.
 ///
@@ -61,7 +62,7 @@ use crate::vec3::Vec3;
 /// # Ok::<(), Box<dyn std::error::Error>>(())
 /// ```
 #[derive(Debug, Clone, Copy)]
-pub struct SparseLdl<O, N, W> {
+pub struct SparseLdl<O, N, W, D = Portable> {
     order: O,
     numbers: N,
     words: W,
@@ -69,12 +70,21 @@ pub struct SparseLdl<O, N, W> {
     known: usize,
     /// Where the next island's record is or is to be
     cursor: usize,
+    dispatch: D,
 }
 
 impl<O, N, W> SparseLdl<O, N, W> {
     /// A solver that eliminates in this order, in this workspace.
     pub const fn new(order: O, numbers: N, words: W) -> Self {
-        Self { order, numbers, words, known: 0, cursor: 0 }
+        Self { order, numbers, words, known: 0, cursor: 0, dispatch: Portable }
+    }
+}
+
+impl<O, N, W, D> SparseLdl<O, N, W, D> {
+    /// The same with its arithmetic run by a host's wider instructions; the same bits.
+    pub fn dispatched_by<E: Dispatch>(self, dispatch: E) -> SparseLdl<O, N, W, E> {
+        let Self { order, numbers, words, known, cursor, .. } = self;
+        SparseLdl { order, numbers, words, known, cursor, dispatch }
     }
 }
 
@@ -84,19 +94,19 @@ fn larger(a: usize, b: usize) -> usize {
 
 /// A record's header: whose it is, and its sizes.
 fn header(first: usize, fingerprint: u32, sizes: &Sizes) -> [u32; FIXED] {
-    let Sizes { rows, edges, supers, listed, panels, longest } = *sizes;
-    let [first, rows, edges, supers, listed, panels, longest] =
-        [first, rows, edges, supers, listed, panels, longest].map(|n| n as u32);
-    [first, fingerprint, rows, edges, supers, listed, panels, longest]
+    let Sizes { rows, edges, supers, listed, panels, longest, widest } = *sizes;
+    let [first, rows, edges, supers, listed, panels, longest, widest] =
+        [first, rows, edges, supers, listed, panels, longest, widest].map(|n| n as u32);
+    [first, fingerprint, rows, edges, supers, listed, panels, longest, widest]
 }
 
 /// The sizes in a header.
 fn sizes(header: [u32; FIXED]) -> Sizes {
-    let [_, _, rows, edges, supers, listed, panels, longest] = header.map(|word| word as usize);
-    Sizes { rows, edges, supers, listed, panels, longest }
+    let [_, _, rows, edges, supers, listed, panels, longest, widest] = header.map(|word| word as usize);
+    Sizes { rows, edges, supers, listed, panels, longest, widest }
 }
 
-impl<O: AsRef<[u32]>, N, W: AsMut<[u32]>> SparseLdl<O, N, W> {
+impl<O: AsRef<[u32]>, N, W: AsMut<[u32]>, D> SparseLdl<O, N, W, D> {
     /// Analyses a scene before its first step, and tells whether the workspace is large enough for all its islands. A step
     /// does so too; this does it where there is time, and changes nothing of the scene.
     ///
@@ -156,9 +166,10 @@ impl<O: AsRef<[u32]>, N, W: AsMut<[u32]>> SparseLdl<O, N, W> {
     }
 }
 
-impl<T, O, N, W> Solver<T> for SparseLdl<O, N, W>
+impl<T, O, N, W, D> Solver<T> for SparseLdl<O, N, W, D>
 where
     T: Real,
+    D: Dispatch,
     O: AsRef<[u32]>,
     N: AsMut<[T]>,
     W: AsMut<[u32]>,
@@ -185,17 +196,31 @@ where
         let lists = records.get(begin..end).and_then(|record| lists(&sizes, record));
         let supernodes =
             lists.and_then(|lists| Supernodes::new(&sizes, lists, self.numbers.as_mut(), scratch));
-        let Some(mut supernodes) = supernodes else { return Err(lacks) };
+        let Some(supernodes) = supernodes else { return Err(lacks) };
         self.cursor = end;
-        Ok(direct::solve(problem, stop, &mut supernodes))
+        Ok(direct::solve(problem, stop, &mut Dispatched(supernodes, self.dispatch)))
     }
 }
 
-impl<T: Real> Factors<T> for Supernodes<'_, T> {
+/// Where the numbers are, and what runs the arithmetic.
+struct Dispatched<'a, T, D>(Supernodes<'a, T>, D);
+
+impl<T: Real, D: Dispatch> Factors<T> for Dispatched<'_, T, D> {
+    #[inline(never)]
     fn factor<F: Force<T>>(&mut self, system: &System<'_, T, F>, pivots: &mut [[T; 6]]) -> bool {
-        Supernodes::factor(self, system, pivots)
+        let Self(supernodes, dispatch) = self;
+        supernodes.assemble(system, pivots);
+        dispatch.run(
+            #[inline(always)]
+            || supernodes.factor(pivots),
+        )
     }
+    #[inline(never)]
     fn solve(&mut self, pivots: &[[T; 6]], x: &mut [Vec3<T>]) {
-        Supernodes::solve(self, pivots, x);
+        let Self(supernodes, dispatch) = self;
+        dispatch.run(
+            #[inline(always)]
+            || supernodes.solve(pivots, x),
+        );
     }
 }

@@ -9,7 +9,8 @@
 use crate::force::Force;
 use crate::real::Real;
 use crate::solver::elimination::{Lists, NONE, Sizes, get, set};
-use crate::solver::panel::{below, below_mut, divided, first, negative, subtract, three, three_mut};
+use crate::solver::panel::{Block, below, below_mut, divided, first, subtract, three, three_mut};
+use crate::solver::update::{self, Panel};
 use crate::solver::pivot::inverse;
 use crate::sym3::Sym3;
 use crate::system::System;
@@ -19,8 +20,10 @@ use crate::vec3::{self, Vec3};
 pub(crate) struct Supernodes<'a, T> {
     pub(crate) lists: Lists<&'a [u32]>,
     pub(crate) panels: &'a mut [T],
-    /// A block column of the longest panel
+    /// Two block columns of the longest panel
     pub(crate) update: &'a mut [T],
+    /// Blocks of L: two for each block column of the widest panel
+    pub(crate) l: &'a mut [Block<T>],
     /// A vector in elimination order
     pub(crate) vector: &'a mut [Vec3<T>],
     /// Per supernode: the first in the list of those that update it, the next in the list that it is in itself, and its
@@ -67,18 +70,20 @@ impl<'a, T: Real> Supernodes<'a, T> {
         words: &'a mut [u32],
     ) -> Option<Self> {
         let (panels, numbers) = numbers.split_at_mut_checked(sizes.panels)?;
-        let (update, numbers) = numbers.split_at_mut_checked(9 * sizes.longest)?;
+        let (update, numbers) = numbers.split_at_mut_checked(18 * sizes.longest)?;
+        let (l, numbers) = numbers.split_at_mut_checked(18 * sizes.widest)?;
+        let l = l.as_chunks_mut().0.as_chunks_mut().0;
         let vector = numbers.get_mut(..3 * sizes.rows)?.as_chunks_mut().0;
         let (head, words) = words.split_at_mut_checked(sizes.supers)?;
         let (next, words) = words.split_at_mut_checked(sizes.supers)?;
         let (used, words) = words.split_at_mut_checked(sizes.supers)?;
         let local = words.get_mut(..sizes.rows)?;
-        Some(Self { lists, panels, update, vector, head, next, used, local })
+        Some(Self { lists, panels, update, l, vector, head, next, used, local })
     }
 
     /// A into the panels. `blocks` is scratch.
     #[inline(never)]
-    fn assemble<F: Force<T>>(&mut self, system: &System<'_, T, F>, blocks: &mut [[T; 6]]) {
+    pub(crate) fn assemble<F: Force<T>>(&mut self, system: &System<'_, T, F>, blocks: &mut [[T; 6]]) {
         for number in self.panels.iter_mut() {
             *number = T::ZERO;
         }
@@ -103,10 +108,9 @@ impl<'a, T: Real> Supernodes<'a, T> {
         });
     }
 
-    /// Factors A. `pivots` gets S⁻¹, in elimination order. `false` if a pivot is not positive.
-    #[inline(never)]
-    pub(crate) fn factor<F: Force<T>>(&mut self, system: &System<'_, T, F>, pivots: &mut [[T; 6]]) -> bool {
-        self.assemble(system, pivots);
+    /// Factors what was assembled. `pivots` gets S⁻¹, in elimination order. `false` if a pivot is not positive.
+    #[inline(always)]
+    pub(crate) fn factor(&mut self, pivots: &mut [[T; 6]]) -> bool {
         self.head.fill(NONE);
         for s in 0..self.head.len() {
             let node = Node::new(&self.lists, s);
@@ -120,7 +124,7 @@ impl<'a, T: Real> Supernodes<'a, T> {
             }
             let Some(panel) = self.panels.get_mut(node.from..node.to) else { return false };
             let Some(pivots) = pivots.get_mut(node.first..node.end) else { return false };
-            if !eliminate(panel, node.length(), pivots) {
+            if !eliminate(panel, node.length(), pivots, self.l) {
                 return false;
             }
             self.queue(s, &node, node.end.saturating_sub(node.first));
@@ -138,35 +142,47 @@ impl<'a, T: Real> Supernodes<'a, T> {
         }
     }
 
-    /// Takes what supernode d does to `node`.
+    /// Takes what supernode d does to `node`, two block columns at a time.
+    #[inline(always)]
     fn take_from(&mut self, d: usize, node: &Node<'_>, pivots: &[[T; 6]]) {
         let source = Node::new(&self.lists, d);
         let mut q = get(self.used, d);
         let Some((done, panel)) = self.panels.split_at_mut_checked(node.from) else { return };
-        let columns = done.get(source.from..source.to).unwrap_or_default();
+        let numbers = done.get(source.from..source.to).unwrap_or_default();
         let pivots = pivots.get(source.first..source.end).unwrap_or_default();
-        while let Some(position) = source.rows.get(q).map(|p| *p as usize).filter(|p| *p < node.end) {
+        let within = |q: usize| source.rows.get(q).map(|p| *p as usize).filter(|p| *p < node.end);
+        let stride = source.length() / 3;
+        while let Some(position) = within(q) {
             let rows = source.rows.get(q..).unwrap_or_default();
-            let Some(update) = self.update.get_mut(..9 * rows.len()) else { return };
-            for (m, (column, pivot)) in columns.chunks_exact(source.length()).zip(pivots).enumerate() {
-                if let (Some(w), Some(update)) = (three(column), three_mut(&mut *update)) {
-                    let w = below(w, q);
-                    let l = divided(first(w), &Sym3(*pivot));
-                    if m == 0 { negative(update, w, &l) } else { subtract(update, w, &l) }
+            let w = Panel { numbers, stride, from: 3 * q };
+            let height = 3 * rows.len();
+            if let Some(second) = within(q + 1) {
+                let l = form(self.l, numbers, stride, q, pivots);
+                let Some(update) = self.update.get_mut(..6 * height) else { return };
+                update::subtract::<T, 2, true>(update, height, height, w, l);
+                let (Some(one), Some(two)) = update.split_at_mut_checked(3 * height).map_or((None, None), |(a, b)| (three(a), three(b))) else { return };
+                if let Some(target) = column_mut(panel, node, position) {
+                    scatter(target, one, rows, self.local);
                 }
+                if let Some(target) = column_mut(panel, node, second) {
+                    scatter(target, below(two, 1), rows.get(1..).unwrap_or_default(), self.local);
+                }
+                q += 2;
+            } else {
+                let l = form(self.l, numbers, stride, q, pivots);
+                let Some(update) = self.update.get_mut(..3 * height) else { return };
+                update::subtract::<T, 1, true>(update, height, height, w, l);
+                if let (Some(target), Some(update)) = (column_mut(panel, node, position), three(update)) {
+                    scatter(target, update, rows, self.local);
+                }
+                q += 1;
             }
-            let within = position.saturating_sub(node.first) * node.length();
-            let target = panel.get_mut(within..within + node.length()).and_then(three_mut);
-            if let (Some(target), Some(update)) = (target, three(update)) {
-                scatter(target, update, rows, self.local);
-            }
-            q += 1;
         }
         self.queue(d, &source, q);
     }
 
     /// x ← A⁻¹ x
-    #[inline(never)]
+    #[inline(always)]
     pub(crate) fn solve(&mut self, pivots: &[[T; 6]], x: &mut [Vec3<T>]) {
         for (z, row) in self.vector.iter_mut().zip(self.lists.row) {
             *z = x.get(*row as usize).copied().unwrap_or([T::ZERO; 3]);
@@ -267,22 +283,72 @@ fn scatter<T: Real>(target: [&mut [T]; 3], update: [&[T]; 3], rows: &[u32], loca
     }
 }
 
-/// The columns of one panel eliminate each other; `pivots` gets their S⁻¹.
-fn eliminate<T: Real>(panel: &mut [T], length: usize, pivots: &mut [[T; 6]]) -> bool {
-    let mut rest = panel;
-    for (k, pivot) in pivots.iter_mut().enumerate() {
-        let Some((column, later)) = rest.split_at_mut_checked(length) else { return false };
-        let Some(w) = three(column) else { return false };
-        let [[xx, ..], [xy, yy, _], [xz, yz, zz]] = first(below(w, k));
-        let Some(inverted) = inverse(Sym3([xx, yy, zz, xy, xz, yz])) else { return false };
-        *pivot = inverted.0;
-        for (j, target) in later.chunks_exact_mut(length).enumerate() {
-            let w = below(w, k + 1 + j);
-            if let Some(target) = three_mut(target) {
-                subtract(below_mut(target, k + 1 + j), w, &divided(first(w), &inverted));
+/// The block column of a position in its node's panel.
+#[inline(always)]
+fn column_mut<'p, T>(panel: &'p mut [T], node: &Node<'_>, position: usize) -> Option<[&'p mut [T]; 3]> {
+    let from = position.saturating_sub(node.first).saturating_mul(node.length());
+    panel.get_mut(from..from.saturating_add(node.length())).and_then(three_mut)
+}
+
+/// L's B block rows from `q` on, of every block column.
+#[inline(always)]
+fn form<'l, T: Real, const B: usize>(
+    room: &'l mut [Block<T>],
+    numbers: &[T],
+    stride: usize,
+    q: usize,
+    pivots: &[[T; 6]],
+) -> &'l [[Block<T>; B]] {
+    let l = room.as_chunks_mut::<B>().0.get_mut(..pivots.len()).unwrap_or_default();
+    let mut column = 3 * q;
+    for (blocks, pivot) in l.iter_mut().zip(pivots) {
+        for (b, block) in blocks.iter_mut().enumerate() {
+            for (c, row) in block.iter_mut().enumerate() {
+                let w = |k: usize| numbers.get(column + k * stride + 3 * b + c).copied().unwrap_or(T::ZERO);
+                *row = Sym3(*pivot).mul([w(0), w(1), w(2)]);
             }
         }
-        rest = later;
+        column += 3 * stride;
+    }
+    l
+}
+
+/// The columns of one panel eliminate each other, two at a time; `pivots` gets their S⁻¹.
+#[inline(always)]
+fn eliminate<T: Real>(panel: &mut [T], length: usize, pivots: &mut [[T; 6]], room: &mut [Block<T>]) -> bool {
+    let stride = length / 3;
+    let mut k = 0;
+    while k < pivots.len() {
+        let Some((before, [pivot, rest @ ..])) = pivots.split_at_mut_checked(k) else { return false };
+        let Some((done, todo)) = panel.split_at_mut_checked(k.saturating_mul(length)) else { return false };
+        let w = Panel { numbers: done, stride, from: 3 * k };
+        let height = stride.saturating_sub(3 * k);
+        let two = !rest.is_empty();
+        let Some(y) = todo.get_mut(3 * k..) else { return false };
+        if k > 0 && two {
+            update::subtract::<T, 2, false>(y, stride, height, w, form(room, done, stride, k, before));
+        } else if k > 0 {
+            update::subtract::<T, 1, false>(y, stride, height, w, form(room, done, stride, k, before));
+        }
+        let Some((column, later)) = todo.split_at_mut_checked(length) else { return false };
+        let Some(inverted) = column_pivot(column, k) else { return false };
+        *pivot = inverted.0;
+        k += 1;
+        if let [second, ..] = rest {
+            let (Some(w), Some(y)) = (three(column), later.get_mut(..length).and_then(three_mut)) else { return false };
+            let w = below(w, k);
+            subtract(below_mut(y, k), w, &divided(first(w), &inverted));
+            let Some(inverted) = later.get(..length).and_then(|column| column_pivot(column, k)) else { return false };
+            *second = inverted.0;
+            k += 1;
+        }
     }
     true
+}
+
+/// The inverse of a block column's pivot, at block row k.
+#[inline(always)]
+fn column_pivot<T: Real>(column: &[T], k: usize) -> Option<Sym3<T>> {
+    let [[xx, ..], [xy, yy, _], [xz, yz, zz]] = first(below(three(column)?, k));
+    inverse(Sym3([xx, yy, zz, xy, xz, yz]))
 }
