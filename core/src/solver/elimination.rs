@@ -14,6 +14,7 @@
 use crate::parts::Matrix;
 use crate::real::Real;
 
+const SLACK: usize = 2;
 /// No such index.
 pub(crate) const NONE: u32 = u32::MAX;
 
@@ -317,7 +318,7 @@ impl Work<'_> {
     /// longer panels give back: measured on cloths.)
     fn continues(&self, k: usize) -> bool {
         get(self.parent, k.saturating_sub(1)) == k
-            && get(self.count, k.saturating_sub(1)) == get(self.count, k) + 1
+            && get(self.count, k.saturating_sub(1)) + SLACK >= get(self.count, k) + 1
     }
 
     /// Visits the supernodes: (first column, end, rows).

@@ -156,26 +156,47 @@ impl<'a, T: Real> Supernodes<'a, T> {
             let rows = source.rows.get(q..).unwrap_or_default();
             let w = Panel { numbers, stride, from: 3 * q };
             let height = 3 * rows.len();
-            if let Some(second) = within(q + 1) {
-                let l = form(self.l, numbers, stride, q, pivots);
-                let Some(update) = self.update.get_mut(..6 * height) else { return };
-                update::subtract::<T, 2, true>(update, height, height, w, l);
-                let (Some(one), Some(two)) = update.split_at_mut_checked(3 * height).map_or((None, None), |(a, b)| (three(a), three(b))) else { return };
-                if let Some(target) = column_mut(panel, node, position) {
-                    scatter(target, one, rows, self.local);
+            let second = within(q + 1);
+            // Where all of the source's rows follow each other in the target too, no update is put down in between.
+            let at = get(self.local, position);
+            let last = rows.last().map_or(NONE as usize, |last| get(self.local, *last as usize));
+            let dense = last == at.saturating_add(rows.len()).saturating_sub(1);
+            let to = node.length() / 3;
+            let from = position.saturating_sub(node.first).saturating_mul(node.length());
+            let place = if dense { panel.get_mut(from.saturating_add(3 * at)..) } else { None };
+            match (second, place) {
+                (Some(second), Some(y)) if second == position + 1 => {
+                    let l = form(self.l, numbers, stride, q, pivots);
+                    update::subtract::<T, 2, false>(y, to, height, w, l);
+                    q += 2;
                 }
-                if let Some(target) = column_mut(panel, node, second) {
-                    scatter(target, below(two, 1), rows.get(1..).unwrap_or_default(), self.local);
+                (None, Some(y)) => {
+                    let l = form(self.l, numbers, stride, q, pivots);
+                    update::subtract::<T, 1, false>(y, to, height, w, l);
+                    q += 1;
                 }
-                q += 2;
-            } else {
-                let l = form(self.l, numbers, stride, q, pivots);
-                let Some(update) = self.update.get_mut(..3 * height) else { return };
-                update::subtract::<T, 1, true>(update, height, height, w, l);
-                if let (Some(target), Some(update)) = (column_mut(panel, node, position), three(update)) {
-                    scatter(target, update, rows, self.local);
+                (Some(second), _) => {
+                    let l = form(self.l, numbers, stride, q, pivots);
+                    let Some(update) = self.update.get_mut(..6 * height) else { return };
+                    update::subtract::<T, 2, true>(update, height, height, w, l);
+                    let Some((one, two)) = update.split_at_mut_checked(3 * height) else { return };
+                    if let (Some(target), Some(update)) = (column_mut(panel, node, position), three(one)) {
+                        scatter(target, update, rows, self.local);
+                    }
+                    if let (Some(target), Some(update)) = (column_mut(panel, node, second), three(two)) {
+                        scatter(target, below(update, 1), rows.get(1..).unwrap_or_default(), self.local);
+                    }
+                    q += 2;
                 }
-                q += 1;
+                _ => {
+                    let l = form(self.l, numbers, stride, q, pivots);
+                    let Some(update) = self.update.get_mut(..3 * height) else { return };
+                    update::subtract::<T, 1, true>(update, height, height, w, l);
+                    if let (Some(target), Some(update)) = (column_mut(panel, node, position), three(update)) {
+                        scatter(target, update, rows, self.local);
+                    }
+                    q += 1;
+                }
             }
         }
         self.queue(d, &source, q);
