@@ -19,7 +19,7 @@ use crate::hessian::Hessian;
 use crate::lanes::Lanes;
 use crate::memory::{part, part_mut};
 use crate::parts::Matrix;
-use crate::real::Real;
+use crate::real::{Real, larger};
 use crate::sym3::Sym3;
 use crate::vec3::{self, Vec3};
 
@@ -117,6 +117,19 @@ impl<T: Real, F: Force<T>> System<'_, T, F> {
             }
         });
         self.each_point(add);
+    }
+
+    /// The largest mass or stiffness: a scale of A for arithmetic in `f32`.
+    pub(crate) fn largest(&self) -> T {
+        let mut most = T::ZERO;
+        for m in self.matrix.inertia.iter() {
+            most = larger(most, *m);
+        }
+        for h in self.matrix.hessian.iter() {
+            let Hessian { alpha, w } = Hessian::unpack(*h);
+            most = larger(most, alpha + vec3::dot(w, w));
+        }
+        most
     }
 
     /// The springs in their order: (row, other end, H).

@@ -13,6 +13,7 @@ use crate::bound;
 use crate::force::Force;
 use crate::hessian::Hessian;
 use crate::lanes::Lanes;
+use crate::parts::Vectors;
 use crate::real::{Real, larger};
 use crate::report::{Ending, Solve};
 use crate::solver::{Jacobi, Problem, Stop, pcg};
@@ -26,6 +27,42 @@ pub(crate) trait Factors<T: Real> {
 
     /// x ← (LDLᵀ)⁻¹ x.
     fn solve(&mut self, pivots: &[[T; 6]], x: &mut [Vec3<T>]);
+
+    /// Goes on from x and r, at most until β ≤ `target` or the number of iterations is used up: here, once.
+    #[inline(always)]
+    fn advance<F: Force<T>>(
+        &mut self,
+        on: On<'_, '_, T, F>,
+        v: &mut Vectors<'_, T>,
+        target: T,
+        max_iterations: u32,
+        iterations: &mut u32,
+    ) {
+        let _ = (target, max_iterations);
+        refine(self, on.pivots, v, iterations);
+    }
+}
+
+/// x += (LDLᵀ)⁻¹ r
+#[inline(always)]
+pub(crate) fn refine<T: Real>(
+    factors: &mut (impl Factors<T> + ?Sized),
+    pivots: &[[T; 6]],
+    v: &mut Vectors<'_, T>,
+    iterations: &mut u32,
+) {
+    copy(v.r, v.y);
+    factors.solve(pivots, v.y);
+    for (x, y) in v.x.iter_mut().zip(v.y.iter()) {
+        *x = vec3::add(*x, *y);
+    }
+    *iterations += 1;
+}
+
+/// What a solve goes on with.
+pub(crate) struct On<'s, 'p, T, F> {
+    pub(crate) system: &'s System<'p, T, F>,
+    pub(crate) pivots: &'s [[T; 6]],
 }
 
 /// Solves A x = b. Of the vectors b and μ come in; x and 1/μ go out.
@@ -58,12 +95,10 @@ pub(crate) fn solve<T: Real, F: Force<T>, D: Factors<T>>(
             ending = Some(Ending::Capped);
             break;
         }
-        copy(v.r, v.y);
-        factors.solve(block, v.y);
-        for (x, y) in v.x.iter_mut().zip(v.y.iter()) {
-            *x = vec3::add(*x, *y);
-        }
-        iterations += 1;
+        // Below 16u of where it set out a recurrence measures only its own rounding.
+        let blind = T::from_count(16) * T::UNIT_ROUNDOFF;
+        let on = On { system: &system, pivots: &*block };
+        factors.advance(on, v, larger(goal, blind * blind * from), stop.max_iterations, &mut iterations);
         let reached = v.check(&system, free);
         if reached <= goal {
             ending = Some(Ending::Converged);
@@ -96,7 +131,7 @@ fn invert<T: Real>(mu: &mut [T]) {
 }
 
 /// y = r. The sum is not taken for a copy, for which a library routine would be linked.
-fn copy<T: Real>(r: &[Vec3<T>], y: &mut [Vec3<T>]) {
+pub(crate) fn copy<T: Real>(r: &[Vec3<T>], y: &mut [Vec3<T>]) {
     for (y, r) in y.iter_mut().zip(r) {
         *y = vec3::add([T::ZERO; 3], *r);
     }

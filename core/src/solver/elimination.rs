@@ -14,6 +14,7 @@
 use crate::parts::Matrix;
 use crate::real::Real;
 
+/// How many entries a column may be given that are zero, to lie in one panel with the next.
 const SLACK: usize = 2;
 /// No such index.
 pub(crate) const NONE: u32 = u32::MAX;
@@ -48,9 +49,9 @@ impl Sizes {
         3 * self.supers + self.rows
     }
 
-    /// Numbers: panels, an update and the rows of L that make it, a permuted vector.
+    /// Numbers: panels, an update and the rows of L that make it, a permuted vector, pivots.
     pub(crate) fn numbers(&self) -> usize {
-        self.panels + 18 * (self.longest + self.widest) + 3 * self.rows
+        self.panels + 18 * (self.longest + self.widest) + 9 * self.rows
     }
 }
 

@@ -1,6 +1,7 @@
 //! How a step's linear system is solved: one file per method, one trait. A solver is a value that owns the scratch it
 //! needs beyond the scene's own vectors; one that a program does not name costs it nothing.
 
+mod around;
 mod banded_ldl;
 mod block_ilu;
 mod chain;
@@ -12,8 +13,10 @@ mod multigrid;
 mod panel;
 pub(crate) mod pcg;
 mod pivot;
+mod precision;
 mod sparse_ldl;
 mod ssor;
+mod substitution;
 mod supernodes;
 mod triangle;
 mod update;
@@ -23,6 +26,7 @@ pub use block_ilu::BlockIlu;
 pub use jacobi::{BlockJacobi, Jacobi, Preconditioner};
 pub use multigrid::{LevelPart, Multigrid};
 pub use pcg::Stop;
+pub use precision::{Numbers, Single};
 pub use sparse_ldl::SparseLdl;
 pub use ssor::Ssor;
 

@@ -59,19 +59,12 @@ pub(crate) fn divided<T: Real>(w: Block<T>, inverse: &Sym3<T>) -> Block<T> {
 #[inline(always)]
 pub(crate) fn subtract<T: Real>(y: [&mut [T]; 3], w: [&[T]; 3], l: &Block<T>) {
     let ([y0, y1, y2], [w0, w1, w2]) = (y, w);
-    rank_three::<T, false>(y0, y1, y2, w0, w1, w2, l);
-}
-
-/// Y = −W Lᵀ
-#[inline(always)]
-pub(crate) fn negative<T: Real>(y: [&mut [T]; 3], w: [&[T]; 3], l: &Block<T>) {
-    let ([y0, y1, y2], [w0, w1, w2]) = (y, w);
-    rank_three::<T, true>(y0, y1, y2, w0, w1, w2, l);
+    rank_three(y0, y1, y2, w0, w1, w2, l);
 }
 
 /// Columns as parameters of their own: only so does the compiler know that they do not overlap.
 #[inline(never)]
-fn rank_three<T: Real, const NEW: bool>(
+fn rank_three<T: Real>(
     y0: &mut [T],
     y1: &mut [T],
     y2: &mut [T],
@@ -80,11 +73,10 @@ fn rank_three<T: Real, const NEW: bool>(
     w2: &[T],
     [l0, l1, l2]: &Block<T>,
 ) {
-    let old = |y: &T| if NEW { T::ZERO } else { *y };
     let columns = y0.iter_mut().zip(y1).zip(y2).zip(w0.iter().zip(w1).zip(w2));
     for (((y0, y1), y2), ((w0, w1), w2)) in columns {
-        *y0 = old(y0) - ((*w0 * l0[0] + *w1 * l0[1]) + *w2 * l0[2]);
-        *y1 = old(y1) - ((*w0 * l1[0] + *w1 * l1[1]) + *w2 * l1[2]);
-        *y2 = old(y2) - ((*w0 * l2[0] + *w1 * l2[1]) + *w2 * l2[2]);
+        *y0 = *y0 - ((*w0 * l0[0] + *w1 * l0[1]) + *w2 * l0[2]);
+        *y1 = *y1 - ((*w0 * l1[0] + *w1 * l1[1]) + *w2 * l1[2]);
+        *y2 = *y2 - ((*w0 * l2[0] + *w1 * l2[1]) + *w2 * l2[2]);
     }
 }

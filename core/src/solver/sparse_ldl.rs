@@ -9,17 +9,20 @@
 
 use crate::error::StepError;
 use crate::force::Force;
+use crate::lanes::Lanes;
 use crate::memory::Memory;
-use crate::parts::{Matrix, Parts};
+use crate::parts::{Matrix, Parts, Vectors};
 use crate::real::Real;
 use crate::report::Solve;
 use crate::scene::MassSpring;
-use crate::solver::direct::{self, Factors};
+use crate::solver::around;
+use crate::solver::direct::{self, Factors, On};
 use crate::solver::elimination::{FIXED, Sizes, analyse, fingerprint, lists};
+use crate::solver::precision::{Numbers, to};
 use crate::solver::supernodes::Supernodes;
 use crate::solver::{Problem, Solver, Stop};
 use crate::system::System;
-use crate::vec3::Vec3;
+use crate::vec3::{self, Vec3};
 use crate::wide::{Dispatch, Portable};
 
 /// Block-sparse LDLᵀ. Numbers, words and the order are the caller's: arrays, borrowed slices, vectors.
@@ -114,10 +117,10 @@ impl<O: AsRef<[u32]>, N, W: AsMut<[u32]>, D> SparseLdl<O, N, W, D> {
     /// [`StepError::Workspace`].
     pub fn prepare<M: Memory>(&mut self, scene: &mut MassSpring<M>) -> Result<(), StepError>
     where
-        N: AsMut<[M::Real]>,
+        N: Numbers<M::Real>,
     {
         let Parts { network, islands, work } = scene.parts();
-        let (mut scratch, mut numbers) = (0, self.numbers.as_mut().len());
+        let (mut scratch, mut numbers) = (0, self.numbers.numbers().len());
         let mut words = self.words.as_mut().len();
         for k in 0..islands.count {
             let sizes = self.analysed(&islands.island(k, work, &network.state()).matrix)?;
@@ -126,7 +129,7 @@ impl<O: AsRef<[u32]>, N, W: AsMut<[u32]>, D> SparseLdl<O, N, W, D> {
             scratch = larger(scratch, sizes.scratch());
             words = larger(words, self.known + scratch);
         }
-        if (numbers, words) == (self.numbers.as_mut().len(), self.words.as_mut().len()) {
+        if (numbers, words) == (self.numbers.numbers().len(), self.words.as_mut().len()) {
             return Ok(());
         }
         Err(StepError::Workspace { numbers, words })
@@ -135,9 +138,9 @@ impl<O: AsRef<[u32]>, N, W: AsMut<[u32]>, D> SparseLdl<O, N, W, D> {
     /// The sizes of an island's factor, analysed if its record is not the next one.
     fn analysed<T: Real>(&mut self, matrix: &Matrix<'_, T>) -> Result<Sizes, StepError>
     where
-        N: AsMut<[T]>,
+        N: Numbers<T>,
     {
-        let numbers = self.numbers.as_mut().len();
+        let numbers = self.numbers.numbers().len();
         if matrix.rows.first == 0 {
             self.cursor = 0;
         }
@@ -171,7 +174,7 @@ where
     T: Real,
     D: Dispatch,
     O: AsRef<[u32]>,
-    N: AsMut<[T]>,
+    N: Numbers<T>,
     W: AsMut<[u32]>,
 {
     fn begin(&mut self) {
@@ -187,7 +190,7 @@ where
         let (begin, end) = (self.cursor + FIXED, self.cursor + sizes.words());
         let known = self.known;
         let lacks = StepError::Workspace {
-            numbers: larger(sizes.numbers(), self.numbers.as_mut().len()),
+            numbers: larger(sizes.numbers(), self.numbers.numbers().len()),
             words: larger(known + sizes.scratch(), self.words.as_mut().len()),
         };
         let Some((records, scratch)) = self.words.as_mut().split_at_mut_checked(known) else {
@@ -195,32 +198,87 @@ where
         };
         let lists = records.get(begin..end).and_then(|record| lists(&sizes, record));
         let supernodes =
-            lists.and_then(|lists| Supernodes::new(&sizes, lists, self.numbers.as_mut(), scratch));
+            lists.and_then(|lists| Supernodes::new(&sizes, lists, self.numbers.numbers(), scratch));
         let Some(supernodes) = supernodes else { return Err(lacks) };
         self.cursor = end;
-        Ok(direct::solve(problem, stop, &mut Dispatched(supernodes, self.dispatch)))
+        let less = <N as Numbers<T>>::LESS;
+        let mut factors = Dispatched { supernodes, dispatch: self.dispatch, scale: T::ONE, less };
+        Ok(direct::solve(problem, stop, &mut factors))
     }
 }
 
-/// Where the numbers are, and what runs the arithmetic.
-struct Dispatched<'a, T, D>(Supernodes<'a, T>, D);
+/// Where the factor's numbers are, what runs the arithmetic, and what A is multiplied by.
+struct Dispatched<'a, T, U, D> {
+    supernodes: Supernodes<'a, U>,
+    dispatch: D,
+    scale: T,
+    /// In less than the scene's precision
+    less: bool,
+}
 
-impl<T: Real, D: Dispatch> Factors<T> for Dispatched<'_, T, D> {
+impl<T: Real, U: Real, D: Dispatch> Dispatched<'_, T, U, D> {
+    /// x ← A⁻¹ x, x being divided by `most` on the way.
     #[inline(never)]
-    fn factor<F: Force<T>>(&mut self, system: &System<'_, T, F>, pivots: &mut [[T; 6]]) -> bool {
-        let Self(supernodes, dispatch) = self;
-        supernodes.assemble(system, pivots);
+    fn substitute(&mut self, most: T, x: &mut [Vec3<T>]) {
+        let Self { supernodes, dispatch, scale, .. } = self;
+        let (down, up) = (T::ONE / most, most * *scale);
+        for (z, row) in supernodes.vector.iter_mut().zip(supernodes.lists.row) {
+            let x = x.get(*row as usize).copied().unwrap_or([T::ZERO; 3]);
+            *z = x.map(|x| to(down * x));
+        }
         dispatch.run(
             #[inline(always)]
-            || supernodes.factor(pivots),
+            || supernodes.substitute(),
+        );
+        for (z, row) in supernodes.vector.iter().zip(supernodes.lists.row) {
+            if let Some(x) = x.get_mut(*row as usize) {
+                *x = z.map(|z| up * to::<U, T>(z));
+            }
+        }
+    }
+}
+
+impl<T: Real, U: Real, D: Dispatch> Factors<T> for Dispatched<'_, T, U, D> {
+    #[inline(never)]
+    fn factor<F: Force<T>>(&mut self, system: &System<'_, T, F>, blocks: &mut [[T; 6]]) -> bool {
+        if self.less {
+            self.scale = T::ONE / system.largest();
+        }
+        self.supernodes.assemble(system, blocks, self.scale);
+        let Self { supernodes, dispatch, .. } = self;
+        dispatch.run(
+            #[inline(always)]
+            || supernodes.factor(),
         )
     }
-    #[inline(never)]
-    fn solve(&mut self, pivots: &[[T; 6]], x: &mut [Vec3<T>]) {
-        let Self(supernodes, dispatch) = self;
-        dispatch.run(
-            #[inline(always)]
-            || supernodes.solve(pivots, x),
-        );
+
+    fn solve(&mut self, _: &[[T; 6]], x: &mut [Vec3<T>]) {
+        self.substitute(T::ONE, x);
+    }
+
+    #[inline(always)]
+    fn advance<F: Force<T>>(
+        &mut self,
+        on: On<'_, '_, T, F>,
+        v: &mut Vectors<'_, T>,
+        target: T,
+        max_iterations: u32,
+        iterations: &mut u32,
+    ) {
+        if !self.less {
+            return direct::refine(self, on.pivots, v, iterations);
+        }
+        around::iterate(on.system, v, target, max_iterations, iterations, |r, most, z| {
+            if !(most > T::ZERO && most.is_finite()) {
+                return T::ZERO;
+            }
+            direct::copy(r, z);
+            self.substitute(most, z);
+            let mut product = Lanes::new();
+            for (i, (r, z)) in r.iter().zip(z.iter()).enumerate() {
+                product.add(i, vec3::dot(*r, *z));
+            }
+            product.sum()
+        });
     }
 }

@@ -1,8 +1,9 @@
 //! The numbers of a sparse LDLᵀ: left-looking, supernode by supernode, each a dense panel.
 //!
 //! Panel s ← A's columns of s; −= W_d L_dᵀ for every earlier supernode d with a row in s (L_d = W_d S_d⁻¹: only the few rows
-//! of L_d that meet s are formed); then its own columns eliminate each other. Who has a row in s next is kept in linked lists,
-//! and an update is summed densely before it is scattered.
+//! of L_d that meet s are formed, [`super::update`]); then its own columns eliminate each other. Who has a row in s next is
+//! kept in linked lists. An update goes to its place at once where d's rows follow each other in s too; else it is summed
+//! densely before it is scattered. [`super::substitution`] solves with the factor.
 //!
 //! Source: Ng & Peyton 1993 (left-looking block Cholesky).
 
@@ -12,6 +13,7 @@ use crate::solver::elimination::{Lists, NONE, Sizes, get, set};
 use crate::solver::panel::{Block, below, below_mut, divided, first, subtract, three, three_mut};
 use crate::solver::update::{self, Panel};
 use crate::solver::pivot::inverse;
+use crate::solver::precision::to;
 use crate::sym3::Sym3;
 use crate::system::System;
 use crate::vec3::{self, Vec3};
@@ -26,6 +28,8 @@ pub(crate) struct Supernodes<'a, T> {
     pub(crate) l: &'a mut [Block<T>],
     /// A vector in elimination order
     pub(crate) vector: &'a mut [Vec3<T>],
+    /// S⁻¹, in elimination order
+    pub(crate) pivots: &'a mut [[T; 6]],
     /// Per supernode: the first in the list of those that update it, the next in the list that it is in itself, and its
     /// own first row that has not been used yet
     pub(crate) head: &'a mut [u32],
@@ -37,26 +41,26 @@ pub(crate) struct Supernodes<'a, T> {
 
 /// One supernode of the lists.
 #[derive(Clone, Copy)]
-struct Node<'a> {
+pub(crate) struct Node<'a> {
     /// Its first position, and the first that is no longer its own
-    first: usize,
-    end: usize,
+    pub(crate) first: usize,
+    pub(crate) end: usize,
     /// The positions of its rows
-    rows: &'a [u32],
+    pub(crate) rows: &'a [u32],
     /// Where its panel is
-    from: usize,
-    to: usize,
+    pub(crate) from: usize,
+    pub(crate) to: usize,
 }
 
 impl<'a> Node<'a> {
-    fn new(lists: &Lists<&'a [u32]>, s: usize) -> Self {
+    pub(crate) fn new(lists: &Lists<&'a [u32]>, s: usize) -> Self {
         let rows = lists.list.get(get(lists.from, s)..get(lists.from, s + 1)).unwrap_or_default();
         let (first, end) = (get(lists.first, s), get(lists.first, s + 1));
         Self { first, end, rows, from: get(lists.panel, s), to: get(lists.panel, s + 1) }
     }
 
     /// Numbers of a block column; not 0, so that a slice can be cut into such.
-    fn length(&self) -> usize {
+    pub(crate) fn length(&self) -> usize {
         (9 * self.rows.len()).max(1)
     }
 }
@@ -73,20 +77,28 @@ impl<'a, T: Real> Supernodes<'a, T> {
         let (update, numbers) = numbers.split_at_mut_checked(18 * sizes.longest)?;
         let (l, numbers) = numbers.split_at_mut_checked(18 * sizes.widest)?;
         let l = l.as_chunks_mut().0.as_chunks_mut().0;
-        let vector = numbers.get_mut(..3 * sizes.rows)?.as_chunks_mut().0;
+        let (vector, numbers) = numbers.split_at_mut_checked(3 * sizes.rows)?;
+        let vector = vector.as_chunks_mut().0;
+        let pivots = numbers.get_mut(..6 * sizes.rows)?.as_chunks_mut().0;
         let (head, words) = words.split_at_mut_checked(sizes.supers)?;
         let (next, words) = words.split_at_mut_checked(sizes.supers)?;
         let (used, words) = words.split_at_mut_checked(sizes.supers)?;
         let local = words.get_mut(..sizes.rows)?;
-        Some(Self { lists, panels, update, l, vector, head, next, used, local })
+        Some(Self { lists, panels, update, l, vector, pivots, head, next, used, local })
     }
 
-    /// A into the panels. `blocks` is scratch.
+    /// A into the panels, times `scale`. `blocks` is scratch.
     #[inline(never)]
-    pub(crate) fn assemble<F: Force<T>>(&mut self, system: &System<'_, T, F>, blocks: &mut [[T; 6]]) {
+    pub(crate) fn assemble<S: Real, F: Force<S>>(
+        &mut self,
+        system: &System<'_, S, F>,
+        blocks: &mut [[S; 6]],
+        scale: S,
+    ) {
         for number in self.panels.iter_mut() {
             *number = T::ZERO;
         }
+        let scaled = |block: [[S; 3]; 3]| block.map(|row| row.map(|x| to(scale * x)));
         system.diagonal(blocks);
         for s in 0..self.head.len() {
             let node = Node::new(&self.lists, s);
@@ -94,7 +106,7 @@ impl<'a, T: Real> Supernodes<'a, T> {
             for (k, row) in rows.iter().enumerate() {
                 if let Some(block) = blocks.get(*row as usize) {
                     let at = node.from + k * (node.length() + 3);
-                    add_block(self.panels, at, 3 * node.rows.len(), Sym3(*block).dense());
+                    add_block(self.panels, at, 3 * node.rows.len(), scaled(Sym3(*block).dense()));
                 }
             }
         }
@@ -103,14 +115,14 @@ impl<'a, T: Real> Supernodes<'a, T> {
             if let Some([at, column]) = place.next()
                 && *at != NONE
             {
-                add_block(self.panels, *at as usize, *column as usize, h.dense().map(|h| h.map(T::neg)));
+                add_block(self.panels, *at as usize, *column as usize, scaled(h.dense()).map(|h| h.map(T::neg)));
             }
         });
     }
 
-    /// Factors what was assembled. `pivots` gets S⁻¹, in elimination order. `false` if a pivot is not positive.
+    /// Factors what was assembled. `false` if a pivot is not positive.
     #[inline(always)]
-    pub(crate) fn factor(&mut self, pivots: &mut [[T; 6]]) -> bool {
+    pub(crate) fn factor(&mut self) -> bool {
         self.head.fill(NONE);
         for s in 0..self.head.len() {
             let node = Node::new(&self.lists, s);
@@ -119,11 +131,11 @@ impl<'a, T: Real> Supernodes<'a, T> {
             }
             let mut d = get(self.head, s);
             while let Some(next) = self.next.get(d).copied().filter(|_| d != NONE as usize) {
-                self.take_from(d, &node, pivots);
+                self.take_from(d, &node);
                 d = next as usize;
             }
             let Some(panel) = self.panels.get_mut(node.from..node.to) else { return false };
-            let Some(pivots) = pivots.get_mut(node.first..node.end) else { return false };
+            let Some(pivots) = self.pivots.get_mut(node.first..node.end) else { return false };
             if !eliminate(panel, node.length(), pivots, self.l) {
                 return false;
             }
@@ -144,12 +156,12 @@ impl<'a, T: Real> Supernodes<'a, T> {
 
     /// Takes what supernode d does to `node`, two block columns at a time.
     #[inline(always)]
-    fn take_from(&mut self, d: usize, node: &Node<'_>, pivots: &[[T; 6]]) {
+    fn take_from(&mut self, d: usize, node: &Node<'_>) {
         let source = Node::new(&self.lists, d);
         let mut q = get(self.used, d);
         let Some((done, panel)) = self.panels.split_at_mut_checked(node.from) else { return };
         let numbers = done.get(source.from..source.to).unwrap_or_default();
-        let pivots = pivots.get(source.first..source.end).unwrap_or_default();
+        let pivots = self.pivots.get(source.first..source.end).unwrap_or_default();
         let within = |q: usize| source.rows.get(q).map(|p| *p as usize).filter(|p| *p < node.end);
         let stride = source.length() / 3;
         while let Some(position) = within(q) {
@@ -200,83 +212,6 @@ impl<'a, T: Real> Supernodes<'a, T> {
             }
         }
         self.queue(d, &source, q);
-    }
-
-    /// x ← A⁻¹ x
-    #[inline(always)]
-    pub(crate) fn solve(&mut self, pivots: &[[T; 6]], x: &mut [Vec3<T>]) {
-        for (z, row) in self.vector.iter_mut().zip(self.lists.row) {
-            *z = x.get(*row as usize).copied().unwrap_or([T::ZERO; 3]);
-        }
-        let supers = self.head.len();
-        for s in 0..supers {
-            self.each_column(s, pivots, |vector, k, pivot, rows, [a, b, c]| {
-                let v = pivot.mul(vector.get(k).copied().unwrap_or([T::ZERO; 3]));
-                for (((row, a), b), c) in rows.iter().zip(a).zip(b).zip(c) {
-                    if let Some(z) = vector.get_mut(*row as usize) {
-                        *z = [
-                            z[0] - ((a[0] * v[0] + b[0] * v[1]) + c[0] * v[2]),
-                            z[1] - ((a[1] * v[0] + b[1] * v[1]) + c[1] * v[2]),
-                            z[2] - ((a[2] * v[0] + b[2] * v[1]) + c[2] * v[2]),
-                        ];
-                    }
-                }
-            });
-        }
-        for s in (0..supers).rev() {
-            self.each_column_back(s, pivots, |vector, k, pivot, rows, [a, b, c]| {
-                let mut sum = vector.get(k).copied().unwrap_or([T::ZERO; 3]);
-                for (((row, a), b), c) in rows.iter().zip(a).zip(b).zip(c) {
-                    let z = vector.get(*row as usize).copied().unwrap_or([T::ZERO; 3]);
-                    sum = vec3::sub(sum, [vec3::dot(*a, z), vec3::dot(*b, z), vec3::dot(*c, z)]);
-                }
-                if let Some(z) = vector.get_mut(k) {
-                    *z = pivot.mul(sum);
-                }
-            });
-        }
-        for (z, row) in self.vector.iter().zip(self.lists.row) {
-            if let Some(x) = x.get_mut(*row as usize) {
-                *x = *z;
-            }
-        }
-    }
-
-    /// Visits the columns of a supernode: the vector, the column's position, its pivot, and its rows below with their
-    /// blocks, three columns.
-    #[inline(always)]
-    fn each_column(
-        &mut self,
-        s: usize,
-        pivots: &[[T; 6]],
-        mut visit: impl FnMut(&mut [Vec3<T>], usize, Sym3<T>, &[u32], [&[Vec3<T>]; 3]),
-    ) {
-        let node = Node::new(&self.lists, s);
-        let columns = self.panels.get(node.from..node.to).unwrap_or_default();
-        let pivots = pivots.get(node.first..node.end).unwrap_or_default();
-        for (k, (column, pivot)) in columns.chunks_exact(node.length()).zip(pivots).enumerate() {
-            let (Some(w), Some(rows)) = (three(column), node.rows.get(k + 1..)) else { return };
-            let blocks = below(w, k + 1).map(|column| column.as_chunks().0);
-            visit(self.vector, node.first + k, Sym3(*pivot), rows, blocks);
-        }
-    }
-
-    /// The same backwards.
-    #[inline(always)]
-    fn each_column_back(
-        &mut self,
-        s: usize,
-        pivots: &[[T; 6]],
-        mut visit: impl FnMut(&mut [Vec3<T>], usize, Sym3<T>, &[u32], [&[Vec3<T>]; 3]),
-    ) {
-        let node = Node::new(&self.lists, s);
-        let columns = self.panels.get(node.from..node.to).unwrap_or_default();
-        let pivots = pivots.get(node.first..node.end).unwrap_or_default();
-        for (k, (column, pivot)) in columns.chunks_exact(node.length()).zip(pivots).enumerate().rev() {
-            let (Some(w), Some(rows)) = (three(column), node.rows.get(k + 1..)) else { return };
-            let blocks = below(w, k + 1).map(|column| column.as_chunks().0);
-            visit(self.vector, node.first + k, Sym3(*pivot), rows, blocks);
-        }
     }
 }
 

@@ -12,23 +12,9 @@ use super::tile::{Tile6, WIDTH};
 use super::words::{NONE, get, set};
 use crate::force::Force;
 use crate::hessian::Hessian;
-use crate::real::{Real, larger};
+use crate::real::Real;
 use crate::sym3::Sym3;
 use crate::system::System;
-use crate::vec3;
-
-/// σ
-pub(super) fn largest<T: Real, F: Force<T>>(system: &System<'_, T, F>) -> T {
-    let mut most = T::ZERO;
-    for m in system.matrix.inertia.iter() {
-        most = larger(most, *m);
-    }
-    for h in system.matrix.hessian.iter() {
-        let Hessian { alpha, w } = Hessian::unpack(*h);
-        most = larger(most, alpha + vec3::dot(w, w));
-    }
-    most
-}
 
 /// H/σ = αI + wwᵀ, `root` = 1/√σ
 #[inline(always)]

@@ -37,7 +37,7 @@ use crate::error::StepError;
 use crate::force::Force;
 use crate::real::Real;
 use crate::report::Solve;
-use crate::solver::{Problem, Solver, Stop, pcg};
+use crate::solver::{Problem, Solver, Stop, around, pcg};
 use crate::system::System;
 use crate::vec3::Vec3;
 use crate::wide::{Dispatch, Portable, Preconditions, Widened};
@@ -146,7 +146,7 @@ impl<N: AsMut<[f32]>, W: AsMut<[u32]>, D: Dispatch> Multigrid<N, W, D> {
     ) -> Result<T, StepError> {
         let mut prepared = Preconditioner::empty(self.dispatch);
         self.prepare(system, &mut prepared)?;
-        Ok(prepared.apply(r, preconditioner::largest(r), z))
+        Ok(prepared.apply(r, around::largest(r), z))
     }
 
     /// Visits all levels of a system's hierarchy, the finest first: its blocks as [`System::blocks`] does, divided by a

@@ -4,17 +4,16 @@
 use super::LevelPart;
 use super::cycle::Hierarchy;
 use super::dense::Dense;
-use super::galerkin;
 use super::level::Level;
 use super::record::{Shape, skip_record};
 use super::sizes::{DENSE, LEVELS, UNKNOWNS};
 use super::tile::WIDTH;
 use super::words::take;
-use crate::bound::square;
 use crate::force::Force;
 use crate::lanes::Lanes;
 use crate::parts::Vectors;
-use crate::real::{Real, larger};
+use crate::real::Real;
+use crate::solver::around;
 use crate::solver::pcg::Iteration;
 use crate::sym3::Sym3;
 use crate::system::System;
@@ -52,7 +51,7 @@ impl<'a, T: Real, D: Dispatch> Preconditioner<'a, T, D> {
         mut pool: &'a mut [f32],
     ) -> Option<()> {
         let slot_of = skip_record(&mut kept, system.matrix.other.len())?;
-        self.scale = T::ONE / galerkin::largest(system);
+        self.scale = T::ONE / system.largest();
         let Hierarchy { levels, count, dense } = &mut self.hierarchy;
         *count = shape.levels;
         let coarsest = shape.size.get(shape.levels.checked_sub(1)?)?.rows;
@@ -204,60 +203,10 @@ impl<T: Real, D: Dispatch> Iteration<T> for Preconditioner<'_, T, D> {
         max_iterations: u32,
         iterations: &mut u32,
     ) -> bool {
-        for (p, y) in v.p.iter_mut().zip(v.y.iter_mut()) {
-            (*p, *y) = ([T::ZERO; 3], [T::ZERO; 3]);
-        }
-        // The first update has no step to make.
-        let (mut step, mut rz) = (T::ZERO, T::ZERO);
-        loop {
-            let (beta, most) = update(step, v);
-            if !(T::HALF * beta > target) || *iterations >= max_iterations {
-                return false;
-            }
-            let next = self.apply(v.r, most, v.y);
-            if !(next > T::ZERO) {
-                return true;
-            }
-            let ratio = if rz > T::ZERO { next / rz } else { T::ZERO };
-            for (p, y) in v.p.iter_mut().zip(v.y.iter_mut()) {
-                *p = vec3::add_scaled(*y, ratio, *p);
-                *y = [T::ZERO; 3];
-            }
-            let curvature = system.add_product(v.p, v.y);
-            if !(curvature > T::ZERO) {
-                return true;
-            }
-            step = next / curvature;
-            rz = next;
-            *iterations += 1;
-        }
+        around::iterate(system, v, target, max_iterations, iterations, |r, most, z| self.apply(r, most, z))
     }
 
     fn precondition<F: Force<T>>(&mut self, _: &System<'_, T, F>, v: &mut Vectors<'_, T>) {
-        self.apply(v.r, largest(v.r), v.y);
+        self.apply(v.r, around::largest(v.r), v.y);
     }
-}
-
-/// The largest component.
-pub(super) fn largest<T: Real>(r: &[Vec3<T>]) -> T {
-    r.iter().fold(T::ZERO, larger_of)
-}
-
-#[inline(always)]
-fn larger_of<T: Real>(most: T, r: &Vec3<T>) -> T {
-    larger(larger(larger(most, r[0].abs()), r[1].abs()), r[2].abs())
-}
-
-/// x += a p, r −= a y; answers Σ|rᵢ|²/μᵢ and the largest component of r.
-#[inline(never)]
-fn update<T: Real>(a: T, v: &mut Vectors<'_, T>) -> (T, T) {
-    let (mut beta, mut most) = (Lanes::new(), T::ZERO);
-    let vectors = v.x.iter_mut().zip(v.r.iter_mut()).zip(v.p.iter().zip(v.y.iter()));
-    for (i, (((x, r), (p, y)), weight)) in vectors.zip(v.mu.iter()).enumerate() {
-        *x = vec3::add_scaled(*x, a, *p);
-        *r = vec3::add_scaled(*r, -a, *y);
-        beta.add(i, square(*r, *weight));
-        most = larger_of(most, r);
-    }
-    (beta.sum(), most)
 }
