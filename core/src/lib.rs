@@ -54,7 +54,9 @@ pub use report::{Ending, IslandReport, Report, Solve};
 pub use scene::{Growable, MassSpring, Scene, SceneIn};
 pub use sleeping::{Awake, Rest, Sleep, Sleeping};
 pub use snapshot::Snapshot;
-pub use solver::{BandedLdl, BlockJacobi, Jacobi, Multigrid, Numbers, Preconditioner, Single, Solver, SparseLdl, Stop};
+pub use solver::{
+    BandedLdl, BlockJacobi, Jacobi, Multigrid, Numbers, Preconditioner, Single, Solver, SparseLdl, Stop,
+};
 pub use solver::{BlockIlu, Ssor};
 pub use spring::{Spring, Stretched};
 pub use sym3::Sym3;

@@ -7,7 +7,7 @@
 
 use crate::lanes::Lanes;
 use crate::real::Real;
-use crate::solver::panel::{below, three};
+use crate::solver::panel::{below, first, three};
 use crate::solver::supernodes::{Node, Supernodes};
 use crate::sym3::Sym3;
 use crate::vec3::{self, Vec3};
@@ -39,13 +39,42 @@ impl<T: Real> Supernodes<'_, T> {
         for s in (0..supers).rev() {
             let node = Node::new(&self.lists, s);
             let Some((vector, rows, columns, pivots)) = self.begin(&node) else { return };
-            for (k, (column, pivot)) in columns.chunks_exact(node.length()).zip(pivots).enumerate().rev() {
-                let (Some(w), Some((x, rest))) =
-                    (three(column), rows.get_mut(k..).and_then(<[_]>::split_first_mut))
+            let mut k = pivots.len();
+            while let Some(last) = k.checked_sub(1) {
+                let column = |k: usize| {
+                    columns
+                        .get(k.saturating_mul(node.length())..)
+                        .and_then(|c| three(c.get(..node.length())?))
+                };
+                let (Some(w), Some(pivot), Some((front, rest))) =
+                    (column(last), pivots.get(last), rows.split_at_mut_checked(k))
                 else {
                     return;
                 };
-                *x = Sym3(*pivot).mul(vec3::sub(*x, along(rest.as_flattened(), below(w, k + 1))));
+                let w = below(w, k);
+                let rest = rest.as_flattened();
+                // Two block columns read the rows once, if there are two.
+                let Some((before, pivot_before)) =
+                    last.checked_sub(1).and_then(|b| Some((column(b)?, pivots.get(b)?)))
+                else {
+                    if let Some(x) = front.last_mut() {
+                        let [sum] = along(rest, [w]);
+                        *x = Sym3(*pivot).mul(vec3::sub(*x, sum));
+                    }
+                    break;
+                };
+                let [sum, sum_before] = along(rest, [w, below(before, k)]);
+                if let [.., y, x] = front {
+                    *x = Sym3(*pivot).mul(vec3::sub(*x, sum));
+                    let [a, b, c] = first(below(before, last));
+                    let own = [
+                        vec3::dot([a[0], b[0], c[0]], *x),
+                        vec3::dot([a[1], b[1], c[1]], *x),
+                        vec3::dot([a[2], b[2], c[2]], *x),
+                    ];
+                    *y = Sym3(*pivot_before).mul(vec3::sub(vec3::sub(*y, sum_before), own));
+                }
+                k = last.saturating_sub(1);
             }
             let own = vector.get_mut(node.first..node.end).unwrap_or_default();
             for (to, row) in own.iter_mut().zip(rows.iter()) {
@@ -75,25 +104,27 @@ fn take<T: Real>(x: &mut [T], [a, b, c]: [&[T]; 3], v: Vec3<T>) {
     }
 }
 
-/// Wᵀ x
+/// Wᵀ x for B block columns.
 #[inline(always)]
-fn along<T: Real>(x: &[T], [a, b, c]: [&[T]; 3]) -> Vec3<T> {
+fn along<T: Real, const B: usize>(x: &[T], columns: [[&[T]; 3]; B]) -> [Vec3<T>; B] {
     let (eights, rest) = x.as_chunks::<8>();
-    let ((a, a_rest), (b, b_rest), (c, c_rest)) =
-        (a.as_chunks::<8>(), b.as_chunks::<8>(), c.as_chunks::<8>());
-    let mut sums = [Lanes::new(), Lanes::new(), Lanes::new()];
-    let [u, v, w] = &mut sums;
-    for (((x, a), b), c) in eights.iter().zip(a).zip(b).zip(c) {
-        u.add_lane(products(a, x));
-        v.add_lane(products(b, x));
-        w.add_lane(products(c, x));
+    let mut sums = [[Lanes::new(); 3]; B];
+    for (k, x) in eights.iter().enumerate() {
+        for (sums, columns) in sums.iter_mut().zip(&columns) {
+            for (sum, w) in sums.iter_mut().zip(columns) {
+                sum.add_lane(products(w.as_chunks().0.get(k).unwrap_or(T::ZEROS), x));
+            }
+        }
     }
-    for (i, (((x, a), b), c)) in rest.iter().zip(a_rest).zip(b_rest).zip(c_rest).enumerate() {
-        u.add(i, *a * *x);
-        v.add(i, *b * *x);
-        w.add(i, *c * *x);
+    let done = 8 * eights.len();
+    for (i, x) in rest.iter().enumerate() {
+        for (sums, columns) in sums.iter_mut().zip(&columns) {
+            for (sum, w) in sums.iter_mut().zip(columns) {
+                sum.add(i, w.get(done + i).copied().unwrap_or(T::ZERO) * *x);
+            }
+        }
     }
-    sums.map(Lanes::sum)
+    sums.map(|sums| sums.map(Lanes::sum))
 }
 
 #[inline(always)]

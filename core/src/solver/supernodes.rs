@@ -11,9 +11,9 @@ use crate::force::Force;
 use crate::real::Real;
 use crate::solver::elimination::{Lists, NONE, Sizes, get, set};
 use crate::solver::panel::{Block, below, below_mut, divided, first, subtract, three, three_mut};
-use crate::solver::update::{self, Panel};
 use crate::solver::pivot::inverse;
 use crate::solver::precision::to;
+use crate::solver::update::{self, Panel};
 use crate::sym3::Sym3;
 use crate::system::System;
 use crate::vec3::{self, Vec3};
@@ -115,7 +115,12 @@ impl<'a, T: Real> Supernodes<'a, T> {
             if let Some([at, column]) = place.next()
                 && *at != NONE
             {
-                add_block(self.panels, *at as usize, *column as usize, scaled(h.dense()).map(|h| h.map(T::neg)));
+                add_block(
+                    self.panels,
+                    *at as usize,
+                    *column as usize,
+                    scaled(h.dense()).map(|h| h.map(T::neg)),
+                );
             }
         });
     }
@@ -226,16 +231,32 @@ fn add_block<T: Real>(panels: &mut [T], at: usize, length: usize, block: [[T; 3]
     }
 }
 
-/// target += update, block rows of the update going where `local` says.
+/// target += update, block rows of the update going where `local` says: as many at once as follow each other there.
 #[inline(always)]
 fn scatter<T: Real>(target: [&mut [T]; 3], update: [&[T]; 3], rows: &[u32], local: &[u32]) {
-    let [t0, t1, t2] = target.map(|column| column.as_chunks_mut::<3>().0);
-    let [u0, u1, u2] = update.map(|column| column.as_chunks::<3>().0);
-    for (((row, u0), u1), u2) in rows.iter().zip(u0).zip(u1).zip(u2) {
-        let at = get(local, *row as usize);
-        if let (Some(t0), Some(t1), Some(t2)) = (t0.get_mut(at), t1.get_mut(at), t2.get_mut(at)) {
-            (*t0, *t1, *t2) = (vec3::add(*t0, *u0), vec3::add(*t1, *u1), vec3::add(*t2, *u2));
-        }
+    let [t0, t1, t2] = target;
+    let [u0, u1, u2] = update;
+    let mut from = 0;
+    while let Some(first) = rows.get(from) {
+        let at = get(local, *first as usize);
+        let later = rows.get(from + 1..).unwrap_or_default();
+        let more =
+            later.iter().zip(1..).take_while(|(row, k)| get(local, **row as usize) == at.wrapping_add(*k));
+        let to = from + 1 + more.count();
+        let numbers = 3 * (to - from);
+        add(t0, 3 * at, u0, 3 * from, numbers);
+        add(t1, 3 * at, u1, 3 * from, numbers);
+        add(t2, 3 * at, u2, 3 * from, numbers);
+        from = to;
+    }
+}
+
+/// So many numbers of y, from `at` on, += those of x from `from` on.
+#[inline(always)]
+fn add<T: Real>(y: &mut [T], at: usize, x: &[T], from: usize, numbers: usize) {
+    let y = y.get_mut(at..at.saturating_add(numbers)).unwrap_or_default();
+    for (y, x) in y.iter_mut().zip(x.get(from..).unwrap_or_default()) {
+        *y += *x;
     }
 }
 
@@ -291,10 +312,14 @@ fn eliminate<T: Real>(panel: &mut [T], length: usize, pivots: &mut [[T; 6]], roo
         *pivot = inverted.0;
         k += 1;
         if let [second, ..] = rest {
-            let (Some(w), Some(y)) = (three(column), later.get_mut(..length).and_then(three_mut)) else { return false };
+            let (Some(w), Some(y)) = (three(column), later.get_mut(..length).and_then(three_mut)) else {
+                return false;
+            };
             let w = below(w, k);
             subtract(below_mut(y, k), w, &divided(first(w), &inverted));
-            let Some(inverted) = later.get(..length).and_then(|column| column_pivot(column, k)) else { return false };
+            let Some(inverted) = later.get(..length).and_then(|column| column_pivot(column, k)) else {
+                return false;
+            };
             *second = inverted.0;
             k += 1;
         }

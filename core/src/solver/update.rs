@@ -1,19 +1,20 @@
 //! Y −= W Lᵀ of dense panels, in tiles that stay in registers: what nearly all of a sparse factorisation's time goes into.
 //!
-//! Y has C columns (one or two block columns), W three for each of the source's block columns, all as long as each other;
-//! l[m] are block column m's rows of L that belong to Y's columns. A tile of 16 rows of Y is loaded once, takes
-//! all source columns in their order, and is stored once:
+//! Y has B block columns (one or two), W any number, all as long as each other; l[m] are the B blocks of L that belong to
+//! W's block column m. A tile of Y, sixteen numbers of each column in `f32` and eight in `f64`, is loaded once, takes all of
+//! W's columns in their order, and is stored once:
 //!
 //! y −= (w₀ l₀ + w₁ l₁) + w₂ l₂.
 //!
-//! Cost: 6 flops per row, column of Y and block column of W; one number of W read for each 2C of them.
+//! Each row is its own sum, so how wide tiles are does not touch the bits.
+//!
+//! Cost: 18B flops per row and block column of W, and three numbers of W read.
 
 use crate::real::Real;
 use crate::solver::panel::Block;
 use crate::vec3::{self, Vec3};
-use crate::wide::eight::{Eight, WIDTH, all, load, store};
 
-/// Rows of a panel's columns: numbers, the distance between columns, and the row to begin with.
+/// Some rows of a panel's columns: its numbers, the distance between columns, and the row to begin with.
 #[derive(Clone, Copy)]
 pub(crate) struct Panel<'a, T> {
     pub(crate) numbers: &'a [T],
@@ -21,11 +22,7 @@ pub(crate) struct Panel<'a, T> {
     pub(crate) from: usize,
 }
 
-/// Three columns, eight rows of each.
-type Three<T> = [Eight<T>; 3];
-
-/// Y −= W Lᵀ for B block columns, one or two. Their columns lie `stride` apart, `rows` numbers each; with `NEW`, Y is 0
-/// before.
+/// Y −= W Lᵀ for B block columns. Their columns lie `stride` apart, `rows` numbers each; with `NEW`, Y is 0 before.
 #[inline(always)]
 pub(crate) fn subtract<T: Real, const B: usize, const NEW: bool>(
     y: &mut [T],
@@ -34,32 +31,50 @@ pub(crate) fn subtract<T: Real, const B: usize, const NEW: bool>(
     w: Panel<'_, T>,
     l: &[[Block<T>; B]],
 ) {
-    let Some(last) = rows.checked_sub(WIDTH) else {
+    if size_of::<T>() == 4 && rows >= 16 {
+        tiles::<T, 16, B, NEW>(y, stride, rows, w, l);
+    } else if rows >= 8 {
+        tiles::<T, 8, B, NEW>(y, stride, rows, w, l);
+    } else {
         for row in 0..rows {
-            one_row::<T, B, NEW>(y, stride, row, w, l);
+            let sums = tile::<T, 1, B, NEW>(y, stride, row, w, l);
+            put(y, stride, row, sums);
         }
-        return;
-    };
-    // The last eight rows overlap what comes before them: all have the same numbers to begin with and so in the end.
-    let end = tile::<T, B, NEW>(y, stride, last, w, l);
+    }
+}
+
+#[inline(always)]
+fn tiles<T: Real, const N: usize, const B: usize, const NEW: bool>(
+    y: &mut [T],
+    stride: usize,
+    rows: usize,
+    w: Panel<'_, T>,
+    l: &[[Block<T>; B]],
+) {
+    // The last tile overlaps the one before it: its rows come from the same numbers, so both have the same.
+    let last = rows.saturating_sub(N);
+    let end = tile::<T, N, B, NEW>(y, stride, last, w, l);
     let mut at = 0;
     while at < last {
-        let sums = tile::<T, B, NEW>(y, stride, at, w, l);
+        let sums = tile::<T, N, B, NEW>(y, stride, at, w, l);
         put(y, stride, at, sums);
-        at += WIDTH;
+        at += N;
     }
     put(y, stride, last, end);
 }
 
+/// N rows of a block column.
+type Three<T, const N: usize> = [[T; N]; 3];
+
 #[inline(always)]
-fn tile<T: Real, const B: usize, const NEW: bool>(
+fn tile<T: Real, const N: usize, const B: usize, const NEW: bool>(
     y: &[T],
     stride: usize,
     at: usize,
     w: Panel<'_, T>,
     l: &[[Block<T>; B]],
-) -> [Three<T>; B] {
-    let mut sums = [[all(T::ZERO); 3]; B];
+) -> [Three<T, N>; B] {
+    let mut sums = [[[T::ZERO; N]; 3]; B];
     if !NEW {
         for (b, sum) in sums.iter_mut().enumerate() {
             *sum = three(y, 3 * b * stride + at, stride);
@@ -69,70 +84,57 @@ fn tile<T: Real, const B: usize, const NEW: bool>(
     for blocks in l {
         let three = three(w.numbers, column, w.stride);
         for (sum, block) in sums.iter_mut().zip(blocks) {
-            *sum = less(*sum, three, block);
+            *sum = less(*sum, &three, block);
         }
         column += 3 * w.stride;
     }
     sums
 }
 
-/// One row where there are fewer than eight.
 #[inline(always)]
-fn one_row<T: Real, const B: usize, const NEW: bool>(
-    y: &mut [T],
-    stride: usize,
-    row: usize,
-    w: Panel<'_, T>,
-    l: &[[Block<T>; B]],
-) {
-    for b in 0..B {
-        let mut sums = [T::ZERO; 3];
-        let number = |numbers: &[T], at: usize| numbers.get(at).copied().unwrap_or(T::ZERO);
-        let three = |numbers: &[T], at: usize, stride: usize| {
-            [number(numbers, at), number(numbers, at + stride), number(numbers, at + 2 * stride)]
-        };
-        let from = 3 * b * stride + row;
-        if !NEW {
-            sums = three(y, from, stride);
-        }
-        let mut column = w.from + row;
-        for blocks in l {
-            if let Some([k, l, m]) = blocks.get(b) {
-                let w = three(w.numbers, column, w.stride);
-                sums = vec3::sub(sums, [vec3::dot(w, *k), vec3::dot(w, *l), vec3::dot(w, *m)]);
-            }
-            column += 3 * w.stride;
-        }
-        for (c, sum) in sums.into_iter().enumerate() {
-            if let Some(y) = y.get_mut(from + c * stride) {
-                *y = sum;
-            }
-        }
-    }
-}
-
-#[inline(always)]
-fn three<T: Real>(numbers: &[T], at: usize, stride: usize) -> Three<T> {
+fn three<T: Real, const N: usize>(numbers: &[T], at: usize, stride: usize) -> Three<T, N> {
     [load(numbers, at), load(numbers, at + stride), load(numbers, at + 2 * stride)]
 }
 
 #[inline(always)]
-fn put<T: Real, const B: usize>(y: &mut [T], stride: usize, at: usize, sums: [Three<T>; B]) {
-    for (b, [x, y_, z]) in sums.into_iter().enumerate() {
-        let at = 3 * b * stride + at;
-        store(y, at, x);
-        store(y, at + stride, y_);
-        store(y, at + 2 * stride, z);
+fn load<T: Real, const N: usize>(numbers: &[T], at: usize) -> [T; N] {
+    match numbers.get(at..).and_then(|rest| rest.first_chunk()) {
+        Some(rows) => *rows,
+        None => [T::ZERO; N],
     }
 }
 
-/// y − ((w₀ l₀ + w₁ l₁) + w₂ l₂), for three columns.
 #[inline(always)]
-fn less<T: Real>([x, y, z]: Three<T>, w: Three<T>, [k, l, m]: &Block<T>) -> Three<T> {
-    [less_one(x, w, k), less_one(y, w, l), less_one(z, w, m)]
+fn put<T: Real, const N: usize, const B: usize>(
+    y: &mut [T],
+    stride: usize,
+    at: usize,
+    sums: [Three<T, N>; B],
+) {
+    for (b, columns) in sums.iter().enumerate() {
+        for (c, rows) in columns.iter().enumerate() {
+            let at = (3 * b + c) * stride + at;
+            if let Some(place) = y.get_mut(at..).and_then(|rest| rest.first_chunk_mut()) {
+                *place = *rows;
+            }
+        }
+    }
 }
 
 #[inline(always)]
-fn less_one<T: Real>(y: Eight<T>, [a, b, c]: Three<T>, [k, l, m]: &Vec3<T>) -> Eight<T> {
-    y - ((a * all(*k) + b * all(*l)) + c * all(*m))
+fn less<T: Real, const N: usize>(
+    [x, y, z]: Three<T, N>,
+    w: &Three<T, N>,
+    [k, l, m]: &Block<T>,
+) -> Three<T, N> {
+    [less_one(x, w, k), less_one(y, w, l), less_one(z, w, m)]
+}
+
+/// y − ((w₀ l₀ + w₁ l₁) + w₂ l₂)
+#[inline(always)]
+fn less_one<T: Real, const N: usize>(mut y: [T; N], [a, b, c]: &Three<T, N>, l: &Vec3<T>) -> [T; N] {
+    for (((y, a), b), c) in y.iter_mut().zip(a).zip(b).zip(c) {
+        *y = *y - vec3::dot([*a, *b, *c], *l);
+    }
+    y
 }
