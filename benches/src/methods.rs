@@ -19,6 +19,7 @@ pub(crate) fn name(method: Method) -> &'static str {
         Method::Ilu => "hooke D-ILU PCG",
         Method::Banded => "hooke banded LDL",
         Method::Ldl => "hooke sparse LDL",
+        Method::Ldl32 => "hooke sparse LDL f32",
     }
 }
 

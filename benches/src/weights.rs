@@ -86,10 +86,13 @@ pub(crate) fn text(samples: &[Sample]) -> String {
         };
         (!is_chain(s)).then(|| [rows(s), s.case.islands.iter().map(work).sum()])
     });
-    let ldl = fitted(samples, Method::Ldl, |s| {
-        let fill = s.case.fill?;
-        Some([size(s), fill.blocks, fill.products])
-    });
+    let sparse = |method| {
+        fitted(samples, method, |s| {
+            let fill = s.case.fill?;
+            Some([size(s), fill.blocks, fill.products])
+        })
+    };
+    let [ldl, ldl32] = [Method::Ldl, Method::Ldl32].map(sparse);
     let list = |values: &[f64]| values.iter().map(|x| format!("{x:.2}")).collect::<Vec<_>>().join(", ");
     let mut text = String::from("\npub const WEIGHTS: Weights = Weights {\n");
     type Line = (&'static str, Method, fn(f64) -> f64, fn(&Sample) -> bool);
@@ -107,7 +110,12 @@ pub(crate) fn text(samples: &[Sample]) -> String {
             "    {name}: Iterative {{ iterations: {iterations:.3}, setup: {setup:.2}, iteration: {iteration:.2} }},\n"
         );
     }
-    text + &format!("    chain: {chain:.1},\n    band: [{}],\n    ldl: [{}],\n}};\n", list(&band), list(&ldl))
+    text + &format!(
+        "    chain: {chain:.1},\n    band: [{}],\n    ldl: [{}],\n    ldl32: [{}],\n}};\n",
+        list(&band),
+        list(&ldl),
+        list(&ldl32)
+    )
 }
 
 #[cfg(test)]

@@ -4,8 +4,10 @@ use std::cell::Cell;
 use std::rc::Rc;
 
 use hooke::{
-    BandedLdl, Ending, IslandReport, LinearlyImplicitEuler, Real, Report, Solver, SparseLdl, StepError,
+    BandedLdl, Ending, IslandReport, LinearlyImplicitEuler, Real, Report, Single, Solver, SparseLdl,
+    StepError,
 };
+use hooke_harness::host::Host;
 use hooke_tests::build::{self, Forces};
 use hooke_tests::data::SceneData;
 use hooke_tests::vec_memory::VecScene;
@@ -171,11 +173,42 @@ fn arrays_slices_and_vectors_as_workspace_give_the_same_bits() {
     assert_eq!(walk(&data, BandedLdl::new([0.5; ROOM].as_mut_slice())), grown);
     let order = [3, 1, 4, 0, 5];
     let grown = walk::<f64>(&data, direct::sparse_in(&data, order.to_vec()));
-    assert_eq!(walk(&data, SparseLdl::new(order, [0.0; 500], [0; 500])), grown);
+    assert_eq!(walk(&data, SparseLdl::new(order, [0.0; 1_000], [0; 500])), grown);
     assert_eq!(
-        walk(&data, SparseLdl::new(&order, [7.0; 500].as_mut_slice(), [9; 500].as_mut_slice())),
+        walk(&data, SparseLdl::new(&order, [7.0; 1_000].as_mut_slice(), [9; 500].as_mut_slice())),
         grown
     );
+}
+
+#[test]
+fn a_host_s_instructions_give_the_same_bits() {
+    let data = generate::cloth(9);
+    for order in [vec![], (0..81).rev().collect()] {
+        let portable = walk::<f64>(&data, direct::sparse_in(&data, order.clone()));
+        assert_eq!(walk(&data, direct::sparse_in(&data, order.clone()).dispatched_by(Host::new())), portable);
+        let portable = walk::<f32>(&data, direct::sparse_in(&data, order.clone()));
+        assert_eq!(walk(&data, direct::sparse_in(&data, order).dispatched_by(Host::new())), portable);
+    }
+    let portable = walk::<f64>(&data, direct::single(&data));
+    assert_eq!(walk(&data, direct::single(&data).dispatched_by(Host::new())), portable);
+}
+
+#[test]
+fn a_factor_in_less_precision_takes_few_iterations_and_half_the_room() {
+    let data = generate::cloth(12);
+    let mut scene = build::scene::<f64>(&data);
+    for (relative, most) in [(1e-3, 1), (1e-6, 2), (1e-10, 4)] {
+        let (report, _) = step(&mut scene, &data, relative, direct::single(&data));
+        assert!((1..=most).contains(&report.iterations) && report.fallbacks == 0, "{relative:e}: {report:?}");
+    }
+    let asks = |solver: Result<(), StepError>| match solver {
+        Err(StepError::Workspace { numbers, .. }) => numbers,
+        other => panic!("{other:?}"),
+    };
+    let words = vec![0; 10_000];
+    let own = asks(SparseLdl::new([], vec![0.0_f64; 0], words.clone()).prepare(&mut scene));
+    let less = asks(SparseLdl::new([], Single(vec![0.0; 0]), words).prepare(&mut scene));
+    assert_eq!(own, less, "as many numbers, of half the size");
 }
 
 #[test]
@@ -260,7 +293,7 @@ fn a_wrong_analysis_is_caught_by_the_certificate_whatever_word_of_it_is_wrong() 
     let exact = walk::<f64>(&data, direct::banded(&data));
     let (mut fallbacks, mut fine) = (0, 0);
     // Behind the header: rows, supernodes, places of blocks, lists.
-    for at in 8..8 + 2 * 14 + 2 * 42 + 3 * 10 + 40 {
+    for at in 9..9 + 2 * 14 + 2 * 42 + 3 * 10 + 40 {
         for value in [0, 1, 13, 1_000, u32::MAX] {
             let change = Rc::new(Cell::new(None));
             let words = Tampered { words: vec![0; 1_000], change: Rc::clone(&change) };

@@ -63,6 +63,7 @@ fn momentum_of_a_free_island_is_kept_to_rounding_by_direct_solvers() {
     kept::<f32, _>(10_000, allowed::U32, direct::banded);
     kept::<f64, _>(10_000, allowed::U64, direct::sparse);
     kept::<f32, _>(10_000, allowed::U32, direct::sparse);
+    kept::<f64, _>(10_000, allowed::U64, direct::single);
 }
 
 #[test]

@@ -209,3 +209,10 @@ fn the_true_error_of_direct_solves_lies_between_the_bounds_in_f32() {
     met_by_direct(&true_error_lies_between_the_bounds::<f32, _>("banded f32", 320, direct::banded));
     met_by_direct(&true_error_lies_between_the_bounds::<f32, _>("sparse f32", 321, direct::sparse));
 }
+
+#[test]
+fn the_true_error_with_a_factor_in_less_precision_lies_between_the_bounds() {
+    let seen = true_error_lies_between_the_bounds::<f64, _>("sparse f32 in f64", 643, direct::single);
+    assert!(seen.clamped > SYSTEMS / 50 && seen.floor > SYSTEMS / 50);
+    assert!(seen.tightness.len() > SYSTEMS / 3, "{} lower bounds", seen.tightness.len());
+}

@@ -161,6 +161,12 @@ fn a_direct_step_is_the_dense_solve_within_the_bound_whatever_the_tolerance() {
 }
 
 #[test]
+fn a_step_with_a_factor_in_less_precision_is_the_dense_solve_within_the_bound() {
+    against_dense::<f64, _>(&[1e-1, 1e-3, 1e-6, 1e-8], allowed::U64, 21, direct::single);
+    against_dense::<f32, _>(&[1e-1, 1e-3, 1e-4], allowed::U32, 22, direct::single);
+}
+
+#[test]
 fn a_step_of_ssor_or_d_ilu_is_the_dense_solve_within_the_bound() {
     against_dense::<f64, _>(&[1e-1, 1e-3, 1e-6, 1e-8], allowed::U64, 17, ssor);
     against_dense::<f32, _>(&[1e-1, 1e-3, 1e-4], allowed::U32, 18, ssor);

@@ -319,7 +319,7 @@ impl Work<'_> {
     /// longer panels give back: measured on cloths.)
     fn continues(&self, k: usize) -> bool {
         get(self.parent, k.saturating_sub(1)) == k
-            && get(self.count, k.saturating_sub(1)) + SLACK >= get(self.count, k) + 1
+            && get(self.count, k.saturating_sub(1)) + SLACK > get(self.count, k)
     }
 
     /// Visits the supernodes: (first column, end, rows).

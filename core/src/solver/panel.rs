@@ -75,8 +75,8 @@ fn rank_three<T: Real>(
 ) {
     let columns = y0.iter_mut().zip(y1).zip(y2).zip(w0.iter().zip(w1).zip(w2));
     for (((y0, y1), y2), ((w0, w1), w2)) in columns {
-        *y0 = *y0 - ((*w0 * l0[0] + *w1 * l0[1]) + *w2 * l0[2]);
-        *y1 = *y1 - ((*w0 * l1[0] + *w1 * l1[1]) + *w2 * l1[2]);
-        *y2 = *y2 - ((*w0 * l2[0] + *w1 * l2[1]) + *w2 * l2[2]);
+        *y0 -= (*w0 * l0[0] + *w1 * l0[1]) + *w2 * l0[2];
+        *y1 -= (*w0 * l1[0] + *w1 * l1[1]) + *w2 * l1[2];
+        *y2 -= (*w0 * l2[0] + *w1 * l2[1]) + *w2 * l2[2];
     }
 }

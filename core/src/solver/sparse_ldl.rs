@@ -5,7 +5,8 @@
 //! share one, the certificate notices and PCG answers. The numbers ([`super::supernodes`]) are new in every step.
 //!
 //! Cost: 27 c² flops per row with c entries below its pivot; all depends on the order. Exact up to rounding, which the
-//! certificate measures; see [`super::direct`] for refinement and what happens when a pivot fails.
+//! certificate measures; see [`super::direct`] for refinement and what happens when a pivot fails. In [`crate::Single`] the factor
+//! is in `f32` ([`super::precision`]): A is divided by its largest number and r by its own, so that `f32` holds them.
 
 use crate::error::StepError;
 use crate::force::Force;

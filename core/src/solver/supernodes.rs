@@ -16,7 +16,7 @@ use crate::solver::precision::to;
 use crate::solver::update::{self, Panel};
 use crate::sym3::Sym3;
 use crate::system::System;
-use crate::vec3::{self, Vec3};
+use crate::vec3::Vec3;
 
 /// An island's factor and what it is made in.
 pub(crate) struct Supernodes<'a, T> {

@@ -53,6 +53,8 @@ pub struct Weights {
     pub band: [f64; 2],
     /// Sparse LDLᵀ: ns per row and spring, per block of the factor, and per block product.
     pub ldl: [f64; 3],
+    /// The same in f32.
+    pub ldl32: [f64; 3],
 }
 
 /// Taken by the command above on one core of an AMD EPYC with AVX-512. On the 13 scenes of its grid that keep their numbering,
@@ -66,6 +68,7 @@ pub const WEIGHTS: Weights = Weights {
     chain: 86.2,
     band: [306.61, 1.73],
     ldl: [76.33, 6.83, 3.97],
+    ldl32: [76.33, 6.83, 3.97],
 };
 
 /// More memory than this is not asked for a factor, bytes.
@@ -143,13 +146,14 @@ impl Case {
                     rows * if wide <= 1.0 { w.chain } else { w.band[0] + w.band[1] * wide * wide }
                 }))
             }
-            Method::Ldl => {
+            Method::Ldl | Method::Ldl32 => {
                 let Some(fill) = self.fill else { return Err("too many particles for an elimination order") };
                 if 72.0 * fill.blocks > MOST_BYTES {
                     return Err("the factor does not fit the memory");
                 }
-                let factor = 1e-6 * (w.ldl[1] * fill.blocks + w.ldl[2] * fill.products);
-                Ok(over(&|island| w.ldl[0] * Self::size(island)) + factor)
+                let [size, block, product] = if method == Method::Ldl { w.ldl } else { w.ldl32 };
+                let factor = 1e-6 * (block * fill.blocks + product * fill.products);
+                Ok(over(&|island| size * Self::size(island)) + factor)
             }
         }
     }

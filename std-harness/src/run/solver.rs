@@ -4,12 +4,13 @@ use std::fmt;
 
 use hooke::solver::{Answer, Island};
 use hooke::{
-    BandedLdl, BlockIlu, BlockJacobi, Force, Law, MassSpring, Memory, Multigrid, Real, Solve, Solver,
-    SparseLdl, Ssor, StepError, Stop, Wide, WideJacobi,
+    BandedLdl, BlockIlu, BlockJacobi, Force, Law, MassSpring, Memory, Multigrid, Numbers, Real, Single,
+    Solve, Solver, SparseLdl, Ssor, StepError, Stop, Wide, WideJacobi,
 };
 
 use crate::host::Host;
 use crate::scene::Model;
+use crate::scene::dissection::nested_dissection;
 
 /// How linear systems are solved.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -26,12 +27,14 @@ pub enum Method {
     Multigrid,
     /// Block-banded LDLᵀ in the order of the particles.
     Banded,
-    /// Block-sparse LDLᵀ in an approximate minimum degree order.
+    /// Block-sparse LDLᵀ.
     Ldl,
+    /// PCG around a block-sparse LDLᵀ in f32.
+    Ldl32,
 }
 
 /// What `--solver` calls them.
-pub const METHODS: [(&str, Method); 7] = [
+pub const METHODS: [(&str, Method); 8] = [
     ("jacobi", Method::Jacobi),
     ("ssor", Method::Ssor),
     ("ilu", Method::Ilu),
@@ -39,6 +42,7 @@ pub const METHODS: [(&str, Method); 7] = [
     ("multigrid", Method::Multigrid),
     ("banded", Method::Banded),
     ("ldl", Method::Ldl),
+    ("ldl32", Method::Ldl32),
 ];
 
 impl Method {
@@ -58,12 +62,16 @@ impl fmt::Display for Method {
             Self::Multigrid => "multigrid PCG",
             Self::Banded => "banded LDLᵀ",
             Self::Ldl => "sparse LDLᵀ",
+            Self::Ldl32 => "sparse LDLᵀ in f32",
         })
     }
 }
 
 /// Multigrid in lanes.
 type Lanes<T> = Wide<Vec<T>, Vec<u32>, Host, Multigrid<Vec<f32>, Vec<u32>, Host>>;
+
+/// Sparse LDLᵀ with these numbers.
+type Sparse<N> = SparseLdl<Vec<u32>, N, Vec<u32>, Host>;
 
 /// Any of the solvers, decided when the program runs.
 #[derive(Debug, Clone)]
@@ -81,7 +89,9 @@ pub enum AnySolver<T> {
     /// [`Method::Banded`], and how many numbers it has
     Banded(BandedLdl<Vec<T>>, usize),
     /// [`Method::Ldl`], and how many bytes it has
-    Ldl(Box<SparseLdl<Vec<u32>, Vec<T>, Vec<u32>>>, usize),
+    Ldl(Box<Sparse<Vec<T>>>, usize),
+    /// [`Method::Ldl32`], and how many bytes it has
+    Ldl32(Box<Sparse<Single<Vec<f32>>>>, usize),
 }
 
 impl<T: Real> AnySolver<T> {
@@ -117,20 +127,12 @@ impl<T: Real> AnySolver<T> {
                 Self::Banded(BandedLdl::new(vec![T::ZERO; numbers]), numbers * size_of::<T>())
             }
             Method::Ldl => {
-                let (order, _) =
-                    minimum_degree(&model.pinned, model.springs.iter().map(|spring| spring.ends));
-                let (mut numbers, mut words) = (0, 0);
-                loop {
-                    let mut solver = SparseLdl::new(order.clone(), vec![T::ZERO; numbers], vec![0; words]);
-                    match solver.prepare(scene) {
-                        Err(StepError::Workspace { numbers: n, words: w }) => (numbers, words) = (n, w),
-                        // No other error is there to be had.
-                        _ => {
-                            let bytes = numbers * size_of::<T>() + (words + order.len()) * size_of::<u32>();
-                            return Self::Ldl(Box::new(solver), bytes);
-                        }
-                    }
-                }
+                let (solver, numbers, words) = sparse(scene, model, |n| vec![T::ZERO; n]);
+                Self::Ldl(Box::new(solver), numbers * size_of::<T>() + words * size_of::<u32>())
+            }
+            Method::Ldl32 => {
+                let (solver, numbers, words) = sparse(scene, model, |n| Single(vec![0.0; n]));
+                Self::Ldl32(Box::new(solver), numbers * size_of::<f32>() + words * size_of::<u32>())
             }
         }
     }
@@ -144,7 +146,8 @@ impl<T: Real> AnySolver<T> {
             | Self::Wide(_, bytes)
             | Self::Multigrid(_, bytes)
             | Self::Banded(_, bytes)
-            | Self::Ldl(_, bytes) => *bytes,
+            | Self::Ldl(_, bytes)
+            | Self::Ldl32(_, bytes) => *bytes,
         }
     }
 }
@@ -163,6 +166,7 @@ impl<T: Real> Solver<T> for AnySolver<T> {
             Self::Ilu(solver, _) => solver.answer::<F, L>(to, stop),
             Self::Banded(solver, _) => solver.answer::<F, L>(to, stop),
             Self::Ldl(solver, _) => solver.as_mut().answer::<F, L>(to, stop),
+            Self::Ldl32(solver, _) => solver.as_mut().answer::<F, L>(to, stop),
         }
     }
 
@@ -175,6 +179,7 @@ impl<T: Real> Solver<T> for AnySolver<T> {
             Self::Ssor(solver, _) => Solver::<T>::begin(solver),
             Self::Ilu(solver, _) => Solver::<T>::begin(solver),
             Self::Ldl(solver, _) => Solver::<T>::begin(solver.as_mut()),
+            Self::Ldl32(solver, _) => Solver::<T>::begin(solver.as_mut()),
         }
     }
 
@@ -191,8 +196,37 @@ impl<T: Real> Solver<T> for AnySolver<T> {
             Self::Multigrid(solver, _) => solver.as_mut().solve(problem, stop),
             Self::Banded(solver, _) => solver.solve(problem, stop),
             Self::Ldl(solver, _) => solver.as_mut().solve(problem, stop),
+            Self::Ldl32(solver, _) => solver.as_mut().solve(problem, stop),
         }
     }
+}
+
+/// A sparse solver with the memory that it needs, in the order of two whose factor is smaller; and how many numbers and
+/// words it has.
+fn sparse<M: Memory, N: Numbers<M::Real>>(
+    scene: &mut MassSpring<M>,
+    model: &Model,
+    room: impl Fn(usize) -> N,
+) -> (Sparse<N>, usize, usize) {
+    let springs = model.springs.iter().map(|spring| spring.ends);
+    let orders = [minimum_degree(&model.pinned, springs).0, nested_dissection(model)];
+    let mut prepared = orders.map(|order| {
+        let (mut numbers, mut words) = (0, 0);
+        loop {
+            let solver = SparseLdl::new(order.clone(), room(numbers), vec![0; words]);
+            let mut solver = solver.dispatched_by(Host::new());
+            match solver.prepare(scene) {
+                Err(StepError::Workspace { numbers: n, words: w }) => (numbers, words) = (n, w),
+                // No other error is there to be had.
+                _ => return (solver, numbers, words + order.len()),
+            }
+        }
+    });
+    if prepared[1].1 < prepared[0].1 {
+        prepared.swap(0, 1);
+    }
+    let [smaller, _] = prepared;
+    smaller
 }
 
 /// Do the springs of some island join particles at few distances in the numbering, so that [`Method::Wide`] has lanes?

@@ -43,6 +43,11 @@ impl Graph {
         self.from[i + 1] - self.from[i]
     }
 
+    /// Who is joined with a particle.
+    pub fn neighbours(&self, i: usize) -> &[usize] {
+        &self.neighbours[self.from[i]..self.from[i + 1]]
+    }
+
     /// Appends all that can be reached from `starts`, level by level, to `order`, and notes the levels. Answers the last.
     pub fn walk(&self, starts: &[usize], level: &mut [usize], order: &mut Vec<usize>) -> usize {
         let mut next = order.len();

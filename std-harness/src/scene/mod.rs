@@ -1,6 +1,7 @@
 //! A scene as the command line, a mesh or a TOML file describes it: plain numbers, checked when the kernel takes them.
 
 pub mod catalog;
+pub mod dissection;
 pub mod from_mesh;
 pub mod graph;
 pub mod motion;

@@ -75,6 +75,8 @@ pub static ALL: &[Job] = &[
     solvers::BANDED_F64,
     solvers::SPARSE_F32,
     solvers::SPARSE_F64,
+    solvers::SINGLE_F32,
+    solvers::SINGLE_F64,
     solvers::SSOR_F32,
     solvers::SSOR_F64,
     solvers::ILU_F32,

@@ -2,7 +2,7 @@
 
 use hooke::{
     BandedLdl, BlockIlu, Hookean, LinearlyImplicitEuler, MassSpring, Memory, Multigrid, Portable, Scene,
-    Solver, SparseLdl, Ssor, WideJacobi,
+    Single, Solver, SparseLdl, Ssor, WideJacobi,
 };
 use static_cell::ConstStaticCell;
 
@@ -47,6 +47,18 @@ job!(BANDED_F32, f32, "banded", BandedLdl::new(zeros!(f32, BANDED)));
 job!(BANDED_F64, f64, "banded", BandedLdl::new(zeros!(f64, BANDED)));
 job!(SPARSE_F32, f32, "sparse", SparseLdl::new(backwards(), zeros!(f32, NUMBERS), zeros!(u32, WORDS)));
 job!(SPARSE_F64, f64, "sparse", SparseLdl::new(backwards(), zeros!(f64, NUMBERS), zeros!(u32, WORDS)));
+job!(
+    SINGLE_F32,
+    f32,
+    "single",
+    SparseLdl::new(backwards(), Single(zeros!(f32, NUMBERS)), zeros!(u32, WORDS))
+);
+job!(
+    SINGLE_F64,
+    f64,
+    "single",
+    SparseLdl::new(backwards(), Single(zeros!(f32, NUMBERS)), zeros!(u32, WORDS))
+);
 job!(SSOR_F32, f32, "ssor", Ssor::new(zeros!(f32, SSOR)));
 job!(SSOR_F64, f64, "ssor", Ssor::new(zeros!(f64, SSOR)));
 job!(ILU_F32, f32, "ilu", BlockIlu::new(zeros!(f32, ILU)));
