@@ -123,7 +123,7 @@ fn springs_only<T: Real, L: Law>(
 }
 
 fn every_third_a_cable(scene: &mut VecScene<f64, Mixed>, j: usize, [a, b]: [usize; 2], spring: Spring<f64>) {
-    let add = if j % 3 == 0 { VecScene::cable } else { VecScene::spring_with };
+    let add = if j.is_multiple_of(3) { VecScene::cable } else { VecScene::spring_with };
     add(scene, a, b, spring).unwrap();
 }
 
