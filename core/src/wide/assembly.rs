@@ -140,10 +140,11 @@ pub(crate) fn linearize<T: Real, L: Law, N: Neighbours, const DAMPED: bool>(
     scaling: Scaling<T>,
 ) -> u32 {
     let mut replaced = all(T::ZERO);
-    neighbours.springs().for_each(
+    neighbours.each_spring(
         #[inline(always)]
-        |springs| {
-            let spring = Stretched::new::<L, N, DAMPED>(neighbours, front, workshop, scaling, springs);
+        |springs, at, ends| {
+            let spring =
+                Stretched::new::<L, N, DAMPED>(neighbours, front, workshop, scaling, (springs, at, ends));
             let (mut hessian, mut push) = (spring.hessian(scaling), -spring.tension());
             let mut changed = spring.replaced();
             if slackens::<L>() {
@@ -155,8 +156,8 @@ pub(crate) fn linearize<T: Real, L: Law, N: Neighbours, const DAMPED: bool>(
             let force = vec3::scale(push, spring.direction);
             let pull = vec3::sub(vec3::scale(all(h), force), hessian.mul(spring.speed));
             replaced = replaced + changed;
-            put(neighbours, front.hessians, springs.0, hessian);
-            put_pull(neighbours, workshop.pulls, springs.0, pull);
+            put(neighbours, front.hessians, springs, hessian);
+            put_pull(neighbours, workshop.pulls, springs, pull);
         },
     );
     neighbours.share(front.hessians);
@@ -245,9 +246,9 @@ pub(crate) fn clamp<T: Real, L: Law, N: Neighbours, const DAMPED: bool>(
     scaling: Scaling<T>,
 ) -> u32 {
     let mut clamped = 0;
-    neighbours.springs().for_each(
+    neighbours.each_spring(
         #[inline(always)]
-        |(spring, at, ends)| {
+        |spring, at, ends| {
             let near_fails = fails(load(front.inertia, at), load(front.mu, at));
             let far = [neighbours.number(front.inertia, ends), neighbours.number(front.mu, ends)];
             let met = near_fails + fails(far[0], far[1]);

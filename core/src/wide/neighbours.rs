@@ -23,8 +23,9 @@ pub(crate) trait Neighbours: Copy {
     -> impl Iterator<Item = (Hessian<Eight<T>>, Self::Ends)>;
     /// Those of the rows' own.
     fn own<T: Real>(self, planes: &[T], at: usize) -> impl Iterator<Item = (Hessian<Eight<T>>, Self::Ends)>;
-    /// All springs, each once, with their rows and other ends.
-    fn springs(self) -> impl Iterator<Item = (Self::Spring, usize, Self::Ends)>;
+    /// Visits all springs, each once, with their rows and other ends. No iterator: the standard library's closures are not
+    /// compiled for the registers of a [`crate::Dispatch`].
+    fn each_spring(self, visit: impl FnMut(Self::Spring, usize, Self::Ends));
     /// Where the k-th of N numbers of eight springs lies.
     fn place<const N: usize>(self, spring: Self::Spring, k: usize) -> usize;
     /// Pulls of the springs that rows above own.
@@ -138,12 +139,12 @@ impl Neighbours for Runs<'_> {
         )
     }
     #[inline(always)]
-    fn springs(self) -> impl Iterator<Item = ([usize; 2], usize, usize)> {
-        let layout = self.0;
-        layout.distances().iter().enumerate().flat_map(
-            #[inline(always)]
-            move |(run, d)| layout.tiles().map(move |at| ([run, at], at, at + *d as usize)),
-        )
+    fn each_spring(self, mut visit: impl FnMut([usize; 2], usize, usize)) {
+        for (run, d) in self.0.distances().iter().enumerate() {
+            for at in self.0.tiles() {
+                visit([run, at], at, at + *d as usize);
+            }
+        }
     }
     #[inline(always)]
     fn place<const N: usize>(self, [run, at]: [usize; 2], k: usize) -> usize {
@@ -249,17 +250,13 @@ impl<'w> Neighbours for Slots<'w> {
         )
     }
     #[inline(always)]
-    fn springs(self) -> impl Iterator<Item = (usize, usize, Self::Ends)> {
-        (0..self.starts.len().saturating_sub(1)).flat_map(
-            #[inline(always)]
-            move |tile| {
-                let slots = self.range(tile, 0);
-                slots.clone().zip(ends(self.own, slots)).map(
-                    #[inline(always)]
-                    move |(slot, ends)| (slot, WIDTH * tile, ends),
-                )
-            },
-        )
+    fn each_spring(self, mut visit: impl FnMut(usize, usize, Self::Ends)) {
+        for tile in 0..self.starts.len().saturating_sub(1) {
+            let slots = self.range(tile, 0);
+            for (slot, ends) in slots.clone().zip(ends(self.own, slots)) {
+                visit(slot, WIDTH * tile, ends);
+            }
+        }
     }
     #[inline(always)]
     fn place<const N: usize>(self, slot: usize, k: usize) -> usize {

@@ -219,7 +219,7 @@ impl<T: Real, F: Force<T>, D: Dispatch, P: Preconditioner<T>> pcg::Iterates<T> f
     }
 
     fn rounding(&mut self) -> T {
-        bound::weighted(&self.layout, &self.work.p, self.front.mu)
+        bound::weighted(self.layout, &self.work.p, self.front.mu)
     }
 
     #[cold]
