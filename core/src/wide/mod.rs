@@ -1,14 +1,23 @@
-//! Block-Jacobi PCG in lanes: for hosts with vector registers, on scenes whose springs join particles at few distances in
-//! the numbering (cloths, nets, ropes, lattices).
+//! Block-Jacobi PCG in lanes: for hosts with vector registers.
 //!
-//! The same mathematics as [`crate::BlockJacobi`], with the island laid out in offset runs ([`layout`]) and planes
-//! ([`work`]): assembly, certificate, product, residual and bounds have no index and no scatter, eight rows side by side.
-//! Sums over rows run over places, so bits differ from those of [`crate::BlockJacobi`] in the last places; they are the same
-//! on every target, for every [`Dispatch`]. An island that has too many distances is left to
-//! [`crate::BlockJacobi`].
+//! The same mathematics as [`crate::BlockJacobi`], eight rows side by side, with the numbers in planes ([`work`]) and the
+//! springs in one of two layouts:
 //!
-//! Cost: `compare` in `benches/` measures it. Memory: 23 numbers per particle and 6 per particle and distance, on top of
-//! the scene's; with damping along springs 7 instead of 6.
+//! - *Offset runs* ([`layout`]), where springs join particles at few distances in the numbering (cloths, nets, ropes,
+//!   lattices): no index, no scatter.
+//! - *Slots* ([`slots`]), where they do not (tetrahedral meshes): rows sorted by their numbers of springs, other ends found
+//!   by index.
+//!
+//! Assembly, certificate, product, residual and bounds are written once over both ([`neighbours`]). Each row's sum is that of
+//! [`crate::System`] in its order (in runs, where springs come in the order of their other ends). Sums over rows run over
+//! places, so bits differ from those of [`crate::BlockJacobi`] in the last places; they are the same on every target, for
+//! every [`Dispatch`]. An island that fills neither layout (a star) is left to [`crate::BlockJacobi`]. The layout is found
+//! once, compared with the island at every step, and found anew when springs or pins have changed.
+//!
+//! Cost: `compare` in `benches/` measures it. Memory, on top of the scene's: in runs 23 numbers per particle and 6 per particle
+//! and distance. In slots 11 numbers per particle and 14 per spring (23 and 10 where a particle has fewer than three springs),
+//! 3 words per spring and 1 per particle, and a tenth more of what belongs to springs, for places that no spring takes. With
+//! damping along springs each of them has one number more.
 
 pub(crate) mod assembly;
 pub(crate) mod bound;
@@ -46,8 +55,7 @@ use slots::NUMBERS;
 pub use solve::Widened;
 use work::{Front, Iterates, Workshop};
 
-/// PCG over offset runs in a workspace of the caller's, preconditioned by `P`. An island without runs is left to `P`'s own
-/// way.
+/// PCG in lanes in a workspace of the caller's, preconditioned by `P`. An island without lanes is left to `P`'s own way.
 #[derive(Debug, Clone, Copy)]
 pub struct Wide<N, W, D = Portable, P = BlockJacobi> {
     numbers: N,
@@ -61,7 +69,7 @@ pub struct Wide<N, W, D = Portable, P = BlockJacobi> {
     damped: bool,
 }
 
-/// Block-Jacobi PCG over offset runs.
+/// Block-Jacobi PCG in lanes.
 pub type WideJacobi<N, W, D = Portable> = Wide<N, W, D, BlockJacobi>;
 
 impl<N, W, D: Dispatch> Wide<N, W, D> {
@@ -80,7 +88,7 @@ impl<N, W, D: Dispatch> Wide<N, W, D> {
 }
 
 impl<N, W, D, P> Wide<N, W, D, P> {
-    /// Was the last island solved in lanes? If not, its springs join particles at too many distances.
+    /// Was the last island solved in lanes? If not, neither layout would hold much but zeros.
     pub fn in_lanes(&self) -> bool {
         self.found
     }
@@ -101,6 +109,17 @@ impl Wide<(), ()> {
             }
         }
         (numbers, words)
+    }
+}
+
+impl Wide<(), ()> {
+    /// Do the springs of some island join particles at few distances in the numbering, so that it is laid out in offset
+    /// runs? Runs are twice as fast as slots: such a numbering is worth keeping.
+    pub fn runs_of<M: Memory>(scene: &mut MassSpring<M>) -> bool {
+        let parts = scene.parts();
+        let state = parts.network.state();
+        (0..parts.islands.count)
+            .any(|k| Layout::shape(&parts.islands.island(k, parts.work, &state)).is_some())
     }
 }
 
