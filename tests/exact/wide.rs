@@ -62,28 +62,53 @@ fn cloth(n: usize) -> SceneData {
     data
 }
 
-fn the_same_bits_in_any_registers<T: Real>(r: f64) {
-    let data = cloth(16);
-    let (mut one, mut other) = (scene::<T>(&data), scene::<T>(&data));
+/// A mesh whose springs join particles at many distances, kicked, with the same in it as [`cloth`].
+fn mesh(cells: usize) -> SceneData {
+    let mut data = generate::blob(cells, 1);
+    let middle = data.len() / 2;
+    data.pinned[middle] = true;
+    for (velocity, pinned) in data.velocity.iter_mut().zip(&data.pinned) {
+        *velocity = if *pinned { [0.0; 3] } else { [5.0, 0.0, 0.0] };
+    }
+    data.drag = 0.1;
+    for (j, spring) in data.springs.iter_mut().enumerate() {
+        spring.c = (j % 3) as f64;
+    }
+    data.points.push(hooke_tests::data::PointData {
+        particle: middle + 1,
+        target: [0.3, 0.4, 0.1],
+        k: 40.0,
+        l0: 0.1,
+    });
+    data
+}
+
+fn the_same_bits_in_any_registers<T: Real>(data: &SceneData, r: f64) {
+    let (mut one, mut other) = (scene::<T>(data), scene::<T>(data));
     let (mut portable, mut host) = (wide(&mut one, Portable), wide(&mut other, Host::new()));
-    let found = run(&data, &mut one, &mut portable, r, 20);
+    let found = run(data, &mut one, &mut portable, r, 20);
     assert!(portable.in_lanes() && found.1.clamped > 0 && found.1.iterations > 10, "{:?}", found.1);
-    assert_eq!(run(&data, &mut other, &mut host, r, 20), found);
+    assert_eq!(run(data, &mut other, &mut host, r, 20), found);
 }
 
 #[test]
 fn wider_instructions_give_the_same_bits() {
-    the_same_bits_in_any_registers::<f64>(1e-8);
-    the_same_bits_in_any_registers::<f32>(1e-4);
+    for data in [cloth(16), mesh(6)] {
+        the_same_bits_in_any_registers::<f64>(&data, 1e-8);
+        the_same_bits_in_any_registers::<f32>(&data, 1e-4);
+    }
 }
 
 #[test]
 fn lanes_solve_what_the_plain_solver_solves() {
-    let data = cloth(12);
-    let (mut plain, mut lanes) = (scene::<f64>(&data), scene::<f64>(&data));
+    [cloth(12), mesh(6)].iter().for_each(lanes_solve_what_the_plain_one_solves);
+}
+
+fn lanes_solve_what_the_plain_one_solves(data: &SceneData) {
+    let (mut plain, mut lanes) = (scene::<f64>(data), scene::<f64>(data));
     let mut solver = wide(&mut lanes, Portable);
-    let (_, expected) = run(&data, &mut plain, &mut BlockJacobi, 1e-12, 15);
-    let (_, found) = run(&data, &mut lanes, &mut solver, 1e-12, 15);
+    let (_, expected) = run(data, &mut plain, &mut BlockJacobi, 1e-12, 15);
+    let (_, found) = run(data, &mut lanes, &mut solver, 1e-12, 15);
     assert!(solver.in_lanes());
     assert_eq!((found.clamped, found.certified), (expected.clamped, expected.certified));
     for (a, b) in plain.positions().iter().zip(lanes.positions()) {
@@ -159,29 +184,83 @@ fn where_springs_come_in_order_lanes_give_the_plain_solvers_bits() {
 
 #[test]
 fn lanes_around_multigrid_solve_what_it_solves_and_in_any_registers() {
-    let data = cloth(16);
+    [cloth(16), mesh(6)].iter().for_each(lanes_around_multigrid);
+}
+
+fn lanes_around_multigrid(data: &SceneData) {
     let around = |scene: &mut VecScene<f64>, dispatch| {
         let (numbers, words) = Multigrid::needs(data.len(), data.springs.len());
         let multigrid = Multigrid::new(vec![0.0; numbers], vec![0; words], Portable);
         (wide(scene, dispatch).around(multigrid.clone()), multigrid)
     };
-    let mut scenes = [scene::<f64>(&data), scene(&data), scene(&data)];
+    let mut scenes = [scene::<f64>(data), scene(data), scene(data)];
     let [alone, portable, host] = &mut scenes;
     let (mut lanes, mut multigrid) = around(portable, Portable);
     let (numbers, words) = WideJacobi::needs_of(host, true);
     let mut wider =
         WideJacobi::new(vec![0.0; numbers], vec![0; words], Host::new()).around(multigrid.clone());
-    let (_, expected) = run(&data, alone, &mut multigrid, 1e-12, 15);
-    let found = run(&data, portable, &mut lanes, 1e-12, 15);
+    let (_, expected) = run(data, alone, &mut multigrid, 1e-12, 15);
+    let found = run(data, portable, &mut lanes, 1e-12, 15);
     assert!(lanes.in_lanes());
-    assert_eq!(run(&data, host, &mut wider, 1e-12, 15), found);
+    assert_eq!(run(data, host, &mut wider, 1e-12, 15), found);
     assert_eq!((found.1.clamped, found.1.certified), (expected.clamped, expected.certified));
     assert!(build::farthest(&build::positions(alone), &build::positions(portable)) <= allowed::TRAJECTORY);
 }
 
+/// Sheets of rows, each tied to two of the next by permutations, the last to pins: springs at many distances, and every row
+/// owns two and ends as many, so that slots keep the rows' order.
+fn layered(sheets: usize, n: usize) -> SceneData {
+    let mut data = SceneData { gravity: [0.0, -9.8, 0.0], ..SceneData::default() };
+    for i in 0..(sheets + 1) * n {
+        let (sheet, k) = (i / n, i % n);
+        let angle = 7.0 * k as f64;
+        data.particle([angle.sin(), -0.3 * sheet as f64, angle.cos()], 0.1 + 0.001 * k as f64);
+    }
+    for i in 0..sheets * n {
+        let (next, k) = (i / n * n + n, i % n);
+        for (turn, shift) in [(7, 3), (11, 5)] {
+            data.spring(i, next + (turn * k + shift) % n, 2000.0);
+        }
+    }
+    data.pinned[sheets * n..].fill(true);
+    for (j, spring) in data.springs.iter_mut().enumerate() {
+        spring.c = 0.01 * (j % 3) as f64;
+        spring.l0 *= 1.1;
+    }
+    data
+}
+
+fn slots_give_the_plain_solvers_bits<T: Real>(r: f64) {
+    let data = layered(4, 41);
+    let (mut plain, mut lanes) = (scene::<T>(&data), scene::<T>(&data));
+    assert!(!WideJacobi::runs_of(&mut lanes));
+    let mut solver = wide(&mut lanes, Host::new());
+    let expected = run(&data, &mut plain, &mut BlockJacobi, r, 20);
+    let found = run(&data, &mut lanes, &mut solver, r, 20);
+    assert!(solver.in_lanes() && found.1.islands == 1 && found.1.iterations > 10, "{:?}", found.1);
+    assert_eq!(found.0, expected.0);
+}
+
 #[test]
-fn springs_at_too_many_distances_are_left_to_the_plain_solver() {
-    let data = generate::blob(3, 1);
+fn where_rows_come_in_the_order_of_the_slots_these_give_the_plain_solvers_bits() {
+    slots_give_the_plain_solvers_bits::<f64>(1e-8);
+    slots_give_the_plain_solvers_bits::<f32>(1e-4);
+}
+
+/// One particle that holds all others: slots for it would be mostly zeros.
+fn star(n: usize) -> SceneData {
+    let mut data = SceneData { gravity: [0.0, -9.8, 0.0], ..SceneData::default() };
+    for i in 0..n {
+        data.particle([i as f64 * 0.1, 0.0, (i * i) as f64 * 0.01], 0.1);
+    }
+    (1..n).for_each(|i| data.spring(0, i, 100.0));
+    data.pinned[n - 1] = true;
+    data
+}
+
+#[test]
+fn springs_that_fill_neither_runs_nor_slots_are_left_to_the_plain_solver() {
+    let data = star(40);
     let (mut plain, mut lanes) = (scene::<f64>(&data), scene::<f64>(&data));
     let mut solver = wide(&mut lanes, Portable);
     let expected = run(&data, &mut plain, &mut BlockJacobi, 1e-8, 5);
@@ -191,22 +270,25 @@ fn springs_at_too_many_distances_are_left_to_the_plain_solver() {
 
 #[test]
 fn after_a_change_of_pins_or_springs_the_layout_is_found_anew() {
-    let data = cloth(9);
-    let mut scene = scene::<f64>(&data);
+    for (data, pin) in [(cloth(9), data_pin(9)), (mesh(6), mesh(6).len() / 2)] {
+        the_layout_is_found_anew(&data, pin);
+    }
+}
+
+fn the_layout_is_found_anew(data: &SceneData, pin: usize) {
+    let mut scene = scene::<f64>(data);
     // Room for the changes to come.
     let mut kept = WideJacobi::new(vec![0.0; 100_000], vec![0; 10_000], Portable);
-    type Change = fn(&mut VecScene<f64>);
-    let changes: [Change; 4] = [
-        |_| {},
-        |scene| scene.break_spring(40).unwrap(),
-        |scene| scene.pin(30).unwrap(),
-        |scene| scene.release(data_pin(9)).unwrap(),
-    ];
-    let mut made: Vec<Change> = Vec::new();
+    type Change<'c> = &'c dyn Fn(&mut VecScene<f64>);
+    let changes: [Change<'_>; 4] =
+        [&|_| {}, &|scene| scene.break_spring(40).unwrap(), &|scene| scene.pin(30).unwrap(), &|scene| {
+            scene.release(pin).unwrap()
+        }];
+    let mut made: Vec<Change<'_>> = Vec::new();
     for change in changes {
         change(&mut scene);
         made.push(change);
-        let mut copy = self::scene::<f64>(&data);
+        let mut copy = self::scene::<f64>(data);
         made.iter().for_each(|change| change(&mut copy));
         for i in 0..data.len() {
             copy.set_position(i, scene.positions()[i]).unwrap();
@@ -215,8 +297,8 @@ fn after_a_change_of_pins_or_springs_the_layout_is_found_anew() {
             }
         }
         let mut solver = wide(&mut copy, Portable);
-        let expected = run(&data, &mut copy, &mut solver, 1e-8, 3);
-        assert_eq!(run(&data, &mut scene, &mut kept, 1e-8, 3), expected);
+        let expected = run(data, &mut copy, &mut solver, 1e-8, 3);
+        assert_eq!(run(data, &mut scene, &mut kept, 1e-8, 3), expected);
         assert!(kept.in_lanes() && solver.in_lanes());
     }
 }
@@ -228,15 +310,21 @@ fn data_pin(n: usize) -> usize {
 
 #[test]
 fn too_little_workspace_is_an_error_that_says_how_much_is_needed_and_changes_nothing() {
-    let data = cloth(9);
-    let mut scene = scene::<f64>(&data);
+    [cloth(9), mesh(6)].iter().for_each(too_little_workspace_is_an_error);
+}
+
+fn too_little_workspace_is_an_error(data: &SceneData) {
+    let mut scene = scene::<f64>(data);
     let needs = WideJacobi::needs_of(&mut scene, true);
     let before = build::bits(&scene);
-    let mut forces = Forces::new(&data);
+    let mut forces = Forces::new(data);
     let small = WideJacobi::new(vec![0.0; needs.0 - 1], vec![0; needs.1], Portable);
     let error = scene.step(&mut forces.euler(0.01).solver(small)).unwrap_err();
     assert_eq!(error, StepError::Workspace { numbers: needs.0, words: needs.1 });
     assert_eq!(build::bits(&scene), before);
+    let small = WideJacobi::new(vec![0.0; needs.0], vec![0; needs.1 - 1], Portable);
+    let error = scene.step(&mut forces.euler(0.01).solver(small)).unwrap_err();
+    assert_eq!(error, StepError::Workspace { numbers: needs.0, words: needs.1 });
     let enough = WideJacobi::new(vec![0.0; needs.0], vec![0; needs.1], Portable);
     scene.step(&mut forces.euler(0.01).solver(enough)).unwrap();
 }

@@ -10,7 +10,8 @@ use crate::real::Real;
 use crate::vec3::{self, Vec3};
 use crate::wide::eight::{Eight, all, choose, load, store, where_positive};
 use crate::wide::layout::Layout;
-use crate::wide::work::{Front, Workshop, hessians, of_run, put_of_run};
+use crate::wide::neighbours::{Neighbours, alike, of_springs};
+use crate::wide::work::{Front, Workshop};
 
 /// What is known of eight springs at the present state.
 struct Stretched<T> {
@@ -28,25 +29,25 @@ struct Stretched<T> {
 }
 
 impl<T: Real> Stretched<T> {
-    /// The springs of a run at eight places.
+    /// Eight springs, their rows and other ends.
     #[inline(always)]
-    fn new<L: Law, const DAMPED: bool>(
-        layout: &Layout,
+    fn new<L: Law, N: Neighbours, const DAMPED: bool>(
+        neighbours: N,
         front: &Front<'_, T>,
         workshop: &Workshop<'_, T>,
         scaling: Scaling<T>,
-        [run, at, far]: [usize; 3],
+        (spring, at, ends): (N::Spring, usize, N::Ends),
     ) -> Self {
-        let n = layout.plane();
         let (stiffness, rest_length, damping) = if DAMPED {
-            let [k, l0, c] = of_run(front.springs, n, run, at);
+            let [k, l0, c] = of_springs(neighbours, front.springs, spring);
             (k, l0, all(scaling.damping) * c)
         } else {
-            let [k, l0] = of_run(front.springs, n, run, at);
+            let [k, l0] = of_springs(neighbours, front.springs, spring);
             (k, l0, all(T::ZERO))
         };
-        let delta = vec3::sub(workshop.position.load(at), workshop.position.load(far));
-        let speed = vec3::sub(workshop.velocity.load(at), workshop.velocity.load(far));
+        let Workshop { position, velocity, .. } = workshop;
+        let delta = vec3::sub(position.load(at), neighbours.vector(alike(position), ends));
+        let speed = vec3::sub(velocity.load(at), neighbours.vector(alike(velocity), ends));
         let squared = vec3::dot(delta, delta);
         let length = squared.sqrt().zip(
             squared,
@@ -113,21 +114,37 @@ impl<T: Real> Stretched<T> {
     }
 }
 
+/// Eight springs' Hessians.
+#[inline(always)]
+fn put<T: Real, N: Neighbours>(neighbours: N, planes: &mut [T], spring: N::Spring, h: Hessian<Eight<T>>) {
+    let Hessian { alpha, w: [x, y, z] } = h;
+    for (k, value) in [alpha, x, y, z].into_iter().enumerate() {
+        store(planes, neighbours.place::<4>(spring, k), value);
+    }
+}
+
+#[inline(always)]
+fn put_pull<T: Real, N: Neighbours>(neighbours: N, pulls: &mut [T], spring: N::Spring, pull: Vec3<Eight<T>>) {
+    for (k, value) in pull.into_iter().enumerate() {
+        store(pulls, neighbours.pull(spring, k), value);
+    }
+}
+
 /// The springs' Hessians and pulls h f − H Δq̇. Answers how many Hessians are replacements.
 #[inline(always)]
-pub(crate) fn linearize<T: Real, L: Law, const DAMPED: bool>(
-    layout: &Layout,
+pub(crate) fn linearize<T: Real, L: Law, N: Neighbours, const DAMPED: bool>(
+    neighbours: N,
     front: &mut Front<'_, T>,
     workshop: &mut Workshop<'_, T>,
     h: T,
     scaling: Scaling<T>,
 ) -> u32 {
-    let n = layout.plane();
     let mut replaced = all(T::ZERO);
-    for (run, d) in layout.distances().iter().enumerate() {
-        for at in layout.tiles() {
+    neighbours.each_spring(
+        #[inline(always)]
+        |springs, at, ends| {
             let spring =
-                Stretched::new::<L, DAMPED>(layout, front, workshop, scaling, [run, at, at + *d as usize]);
+                Stretched::new::<L, N, DAMPED>(neighbours, front, workshop, scaling, (springs, at, ends));
             let (mut hessian, mut push) = (spring.hessian(scaling), -spring.tension());
             let mut changed = spring.replaced();
             if slackens::<L>() {
@@ -139,25 +156,29 @@ pub(crate) fn linearize<T: Real, L: Law, const DAMPED: bool>(
             let force = vec3::scale(push, spring.direction);
             let pull = vec3::sub(vec3::scale(all(h), force), hessian.mul(spring.speed));
             replaced = replaced + changed;
-            let Hessian { alpha, w: [x, y, z] } = hessian;
-            put_of_run(front.hessians, n, run, at, [alpha, x, y, z]);
-            put_of_run(workshop.pulls, n, run, at, pull);
-        }
-    }
+            put(neighbours, front.hessians, springs, hessian);
+            put_pull(neighbours, workshop.pulls, springs, pull);
+        },
+    );
+    neighbours.share(front.hessians);
     count(replaced)
 }
 
 /// b += Σ pulls, rows only.
 #[inline(always)]
-pub(crate) fn gather<T: Real>(layout: &Layout, front: &mut Front<'_, T>, pulls: &[T]) {
-    let n = layout.plane();
+pub(crate) fn gather<T: Real, N: Neighbours>(
+    neighbours: N,
+    layout: &Layout,
+    front: &mut Front<'_, T>,
+    pulls: &[T],
+) {
     for at in layout.tiles() {
         let mut b = front.b.load(at);
-        for (run, d) in layout.distances().iter().enumerate().rev() {
-            b = vec3::sub(b, of_run(pulls, n, run, at - *d as usize));
+        for pull in neighbours.pulls_above(pulls, at) {
+            b = vec3::sub(b, pull);
         }
-        for run in 0..layout.runs {
-            b = vec3::add(b, of_run(pulls, n, run, at));
+        for pull in neighbours.pulls_own(pulls, at) {
+            b = vec3::add(b, pull);
         }
         let m = load(front.inertia, at);
         front.b.store(at, where_positive(m, b));
@@ -166,17 +187,11 @@ pub(crate) fn gather<T: Real>(layout: &Layout, front: &mut Front<'_, T>, pulls: 
 
 /// What compressed springs charge μ with, rounded up: see [`crate::certificate::charge`].
 #[inline(always)]
-pub(crate) fn charge<T: Real>(layout: &Layout, front: &mut Front<'_, T>) {
-    let n = layout.plane();
+pub(crate) fn charge<T: Real, N: Neighbours>(neighbours: N, layout: &Layout, front: &mut Front<'_, T>) {
     for at in layout.tiles() {
         let mut sum = all(T::ZERO);
-        for (run, d) in layout.distances().iter().enumerate().rev() {
-            let above = at - *d as usize;
-            sum = charged(sum, load(front.hessians, 4 * run * n + above), load(front.inertia, above));
-        }
-        for (run, d) in layout.distances().iter().enumerate() {
-            let below = at + *d as usize;
-            sum = charged(sum, load(front.hessians, 4 * run * n + at), load(front.inertia, below));
+        for (h, ends) in neighbours.above(front.hessians, at).chain(neighbours.own(front.hessians, at)) {
+            sum = charged(sum, h.alpha, neighbours.number(front.inertia, ends));
         }
         store(front.mu, at, sum);
     }
@@ -224,20 +239,21 @@ pub(crate) fn fails<T: Real>(m: Eight<T>, mu: Eight<T>) -> Eight<T> {
 
 /// Clamps the compressed springs that meet a failing row. The pulls become what that changes in b. Answers how many.
 #[inline(always)]
-pub(crate) fn clamp<T: Real, L: Law, const DAMPED: bool>(
-    layout: &Layout,
+pub(crate) fn clamp<T: Real, L: Law, N: Neighbours, const DAMPED: bool>(
+    neighbours: N,
     front: &mut Front<'_, T>,
     workshop: &mut Workshop<'_, T>,
     scaling: Scaling<T>,
 ) -> u32 {
-    let n = layout.plane();
     let mut clamped = 0;
-    for (run, d) in layout.distances().iter().enumerate() {
-        for at in layout.tiles() {
-            let far = at + *d as usize;
+    neighbours.each_spring(
+        #[inline(always)]
+        |spring, at, ends| {
             let near_fails = fails(load(front.inertia, at), load(front.mu, at));
-            let met = near_fails + fails(load(front.inertia, far), load(front.mu, far));
-            let old = hessians(front.hessians, n, run, at);
+            let far = [neighbours.number(front.inertia, ends), neighbours.number(front.mu, ends)];
+            let met = near_fails + fails(far[0], far[1]);
+            let [alpha, x, y, z] = of_springs(neighbours, front.hessians, spring);
+            let old = Hessian { alpha, w: [x, y, z] };
             let hit = met.zip(
                 old.alpha,
                 #[inline(always)]
@@ -247,21 +263,19 @@ pub(crate) fn clamp<T: Real, L: Law, const DAMPED: bool>(
             let mut change = [all(T::ZERO); 3];
             if hits > 0 {
                 clamped += hits;
-                let spring = Stretched::new::<L, DAMPED>(layout, front, workshop, scaling, [run, at, far]);
-                let new = spring.clamped(scaling);
-                change = where_positive(hit, vec3::sub(old.mul(spring.speed), new.mul(spring.speed)));
+                let springs = (spring, at, ends);
+                let stretched = Stretched::new::<L, N, DAMPED>(neighbours, front, workshop, scaling, springs);
+                let (new, speed) = (stretched.clamped(scaling), stretched.speed);
+                change = where_positive(hit, vec3::sub(old.mul(speed), new.mul(speed)));
                 let ([a, b, c], [x, y, z]) = (old.w, new.w);
-                let chosen = [
-                    choose(hit, new.alpha, old.alpha),
-                    choose(hit, x, a),
-                    choose(hit, y, b),
-                    choose(hit, z, c),
-                ];
-                put_of_run(front.hessians, n, run, at, chosen);
+                let w = [choose(hit, x, a), choose(hit, y, b), choose(hit, z, c)];
+                let chosen = Hessian { alpha: choose(hit, new.alpha, old.alpha), w };
+                put(neighbours, front.hessians, spring, chosen);
             }
-            put_of_run(workshop.pulls, n, run, at, change);
-        }
-    }
+            put_pull(neighbours, workshop.pulls, spring, change);
+        },
+    );
+    neighbours.share(front.hessians);
     clamped
 }
 

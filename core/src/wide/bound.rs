@@ -9,7 +9,7 @@ use crate::vec3::{self, Vec3};
 use crate::wide::eight::{Eight, Planes, all, load, where_positive};
 use crate::wide::gather::{Gather, Matrix, gather};
 use crate::wide::layout::Layout;
-use crate::wide::work::hessians;
+use crate::wide::neighbours::{Neighbours, alike, either};
 
 /// |a| by component.
 #[inline(always)]
@@ -154,23 +154,25 @@ pub(crate) fn products<T: Real>(
 
 /// What rounding x itself leaves after so many updates, β of δ + k u |A||x|; see [`crate::bound::attainable`]. Into `size`.
 #[inline(always)]
-pub(crate) fn attainable<T: Real>(
-    Matrix { layout, hessians: planes, inertia }: Matrix<'_, T>,
+pub(crate) fn attainable<T: Real>(matrix: Matrix<'_, T>, x: &Planes<'_, T>, size: &mut Planes<'_, T>) {
+    either!(matrix.way, neighbours => sizes(neighbours, matrix, x, size));
+}
+
+#[inline(always)]
+fn sizes<T: Real, N: Neighbours>(
+    neighbours: N,
+    Matrix { layout, hessians, inertia, .. }: Matrix<'_, T>,
     x: &Planes<'_, T>,
     size: &mut Planes<'_, T>,
 ) {
-    let n = layout.plane();
+    let planes = alike(x);
     for at in layout.tiles() {
         let here = magnitude(x.load(at));
         let m = load(inertia, at);
         let mut sum = vec3::scale(m, here);
-        for (run, d) in layout.distances().iter().enumerate() {
-            let d = *d as usize;
-            for (spring, other) in [(at - d, at - d), (at, at + d)] {
-                let h = hessians(planes, n, run, spring);
-                let most = h.alpha.abs() + vec3::dot(h.w, h.w);
-                sum = vec3::add_scaled(sum, most, vec3::add(here, magnitude(x.load(other))));
-            }
+        for (h, ends) in neighbours.above(hessians, at).chain(neighbours.own(hessians, at)) {
+            let most = h.alpha.abs() + vec3::dot(h.w, h.w);
+            sum = vec3::add_scaled(sum, most, vec3::add(here, magnitude(neighbours.vector(planes, ends))));
         }
         size.store(at, where_positive(m, sum));
     }

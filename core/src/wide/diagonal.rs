@@ -5,20 +5,22 @@ use crate::real::{Real, larger};
 use crate::sym3::Sym3;
 use crate::wide::eight::{Eight, all, choose, load, store, where_positive};
 use crate::wide::layout::Layout;
-use crate::wide::work::hessians;
+use crate::wide::neighbours::Neighbours;
 
 /// D = M̃ + Σ H into the planes of the inverse.
 #[inline(always)]
-pub(crate) fn blocks<T: Real>(layout: &Layout, planes: &[T], inertia: &[T], inverse: &mut [&mut [T]; 6]) {
-    let n = layout.plane();
+pub(crate) fn blocks<T: Real, N: Neighbours>(
+    neighbours: N,
+    layout: &Layout,
+    hessians: &[T],
+    inertia: &[T],
+    inverse: &mut [&mut [T]; 6],
+) {
     for at in layout.tiles() {
         let (m, zero) = (load(inertia, at), all(T::ZERO));
         let mut block = Sym3([m, m, m, zero, zero, zero]);
-        for (run, d) in layout.distances().iter().enumerate().rev() {
-            block = add(block, hessians(planes, n, run, at - *d as usize));
-        }
-        for run in 0..layout.runs {
-            block = add(block, hessians(planes, n, run, at));
+        for (hessian, _) in neighbours.above(hessians, at).chain(neighbours.own(hessians, at)) {
+            block = add(block, hessian);
         }
         put(inverse, at, block);
     }

@@ -202,10 +202,10 @@ impl<T: Real> Planes<'_, T> {
     }
 
     /// Zeros before and behind the places: what lies there is read as a neighbour.
-    pub(crate) fn clear_margins(&mut self, pad: usize) {
+    pub(crate) fn clear_margins(&mut self, before: usize, behind: usize) {
         for plane in &mut self.0 {
-            let end = plane.len().saturating_sub(pad);
-            for part in [0..pad, end..plane.len()] {
+            let end = plane.len().saturating_sub(behind);
+            for part in [0..before, end..plane.len()] {
                 if let Some(part) = plane.get_mut(part) {
                     part.fill(T::ZERO);
                 }

@@ -12,7 +12,9 @@ use crate::wide::assembly::{certify, charge, clamp, fails, gather, linearize};
 use crate::wide::dispatch::Dispatch;
 use crate::wide::eight::load as load_lanes;
 use crate::wide::layout::Layout;
-use crate::wide::load::load;
+use crate::wide::load::{load, load_slots};
+use crate::wide::neighbours::{Neighbours, Way, either};
+use crate::wide::slots::NUMBERS;
 use crate::wide::work::{Front, Workshop};
 
 /// What an island is assembled from.
@@ -23,6 +25,7 @@ pub(crate) struct Givens<'g, 'a, T, F, D> {
     pub(crate) scaling: Scaling<T>,
     pub(crate) layout: &'g Layout,
     pub(crate) words: &'g [u32],
+    pub(crate) way: Way<'g>,
     pub(crate) dispatch: D,
 }
 
@@ -33,10 +36,21 @@ impl<T: Real, F: Force<T>, D: Dispatch> Givens<'_, '_, T, F, D> {
         front: &mut Front<'_, T>,
         workshop: &mut Workshop<'_, T>,
     ) -> Result<Option<Assembled>, StepError> {
-        if !load::<T, F, L>(self.island, self.forces, self.layout, self.words, front, workshop) {
+        let fits = match &self.way {
+            Way::Runs(_) => {
+                load::<T, F, L>(self.island, self.forces, self.layout, self.words, front, workshop)
+            }
+            Way::Slots(slots) => {
+                load_slots::<T, F, L>(self.island, self.forces, self.layout, slots, front, workshop)
+            }
+        };
+        if !fits {
             return Ok(None);
         }
         let points = F::ANCHORS && self.island.vectors.y.iter().any(|mark| mark[0] != T::ZERO);
+        if let Some(nothing) = workshop.pulls.get_mut(..NUMBERS) {
+            nothing.fill(T::ZERO);
+        }
         for run in 0..3 * self.layout.runs {
             let first = run * self.layout.plane();
             if let Some(margin) = workshop.pulls.get_mut(first..first + self.layout.pad) {
@@ -61,17 +75,27 @@ impl<T: Real, F: Force<T>, D: Dispatch> Givens<'_, '_, T, F, D> {
     }
 
     fn linearize<L: Law>(&self, front: &mut Front<'_, T>, workshop: &mut Workshop<'_, T>) -> u32 {
+        either!(self.way, neighbours => self.linearize_in::<L, _>(neighbours, front, workshop))
+    }
+
+    #[inline(always)]
+    fn linearize_in<L: Law, N: Neighbours>(
+        &self,
+        neighbours: N,
+        front: &mut Front<'_, T>,
+        workshop: &mut Workshop<'_, T>,
+    ) -> u32 {
         let (layout, h, scaling) = (self.layout, self.h, self.scaling);
         self.dispatch.run(
             #[inline(always)]
             || {
                 let replaced = if F::DAMPS {
-                    linearize::<T, L, true>(layout, front, workshop, h, scaling)
+                    linearize::<T, L, N, true>(neighbours, front, workshop, h, scaling)
                 } else {
-                    linearize::<T, L, false>(layout, front, workshop, h, scaling)
+                    linearize::<T, L, N, false>(neighbours, front, workshop, h, scaling)
                 };
-                gather(layout, front, workshop.pulls);
-                charge(layout, front);
+                gather(neighbours, layout, front, workshop.pulls);
+                charge(neighbours, layout, front);
                 replaced
             },
         )
@@ -93,23 +117,12 @@ impl<T: Real, F: Force<T>, D: Dispatch> Givens<'_, '_, T, F, D> {
         points: bool,
     ) -> Result<u32, StepError> {
         let (layout, scaling) = (self.layout, self.scaling);
-        let mut clamped = self.dispatch.run(
-            #[inline(always)]
-            || {
-                let clamped = if F::DAMPS {
-                    clamp::<T, L, true>(layout, front, workshop, scaling)
-                } else {
-                    clamp::<T, L, false>(layout, front, workshop, scaling)
-                };
-                gather(layout, front, workshop.pulls);
-                clamped
-            },
-        );
+        let mut clamped = either!(self.way, neighbours => self.clamp_in::<L, _>(neighbours, front, workshop));
         if points {
             self.add_points(front, workshop, T::ONE);
             let rows = self.island.matrix.rows;
             let fails = |row: usize| {
-                let at = rows.particle.get(row).map(|particle| layout.place(*particle));
+                let at = rows.particle.get(row).map(|particle| self.way.place(row, *particle));
                 !at.and_then(|at| front.mu.get(at)).is_some_and(|mu| *mu > T::ZERO)
             };
             clamped += self.forces.clamp(&rows, scaling, fails);
@@ -117,7 +130,7 @@ impl<T: Real, F: Force<T>, D: Dispatch> Givens<'_, '_, T, F, D> {
         }
         self.dispatch.run(
             #[inline(always)]
-            || charge(layout, front),
+            || either!(self.way, neighbours => charge(neighbours, layout, front)),
         );
         if points {
             self.charge_points(front);
@@ -128,9 +141,31 @@ impl<T: Real, F: Force<T>, D: Dispatch> Givens<'_, '_, T, F, D> {
         let failing = layout.tiles().find_map(|at| {
             let lanes = fails(load_lanes(front.inertia, at), load_lanes(front.mu, at));
             let lane = lanes.0.iter().position(|fails| *fails > T::ZERO)?;
-            Some(layout.base + at - layout.pad + lane)
+            self.way.particle(at + lane, self.island.matrix.rows.particle)
         });
         Err(StepError::NotCertified(failing.unwrap_or(0)))
+    }
+
+    #[inline(always)]
+    fn clamp_in<L: Law, N: Neighbours>(
+        &self,
+        neighbours: N,
+        front: &mut Front<'_, T>,
+        workshop: &mut Workshop<'_, T>,
+    ) -> u32 {
+        let (layout, scaling) = (self.layout, self.scaling);
+        self.dispatch.run(
+            #[inline(always)]
+            || {
+                let clamped = if F::DAMPS {
+                    clamp::<T, L, N, true>(neighbours, front, workshop, scaling)
+                } else {
+                    clamp::<T, L, N, false>(neighbours, front, workshop, scaling)
+                };
+                gather(neighbours, layout, front, workshop.pulls);
+                clamped
+            },
+        )
     }
 
     /// b += sign · Σ H q̇ over point springs.
@@ -149,7 +184,7 @@ impl<T: Real, F: Force<T>, D: Dispatch> Givens<'_, '_, T, F, D> {
         let rows = self.island.matrix.rows;
         self.forces.hessians(&rows, &mut |row, hessian| {
             if let Some(particle) = rows.particle.get(row) {
-                visit(self.layout.place(*particle), hessian);
+                visit(self.way.place(row, *particle), hessian);
             }
         });
     }

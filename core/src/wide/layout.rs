@@ -9,6 +9,7 @@
 use crate::parts::IslandParts;
 use crate::real::Real;
 use crate::wide::eight::WIDTH;
+use crate::wide::slots::{self, Counts};
 
 /// At most so many distances.
 pub(crate) const MOST_RUNS: usize = 16;
@@ -26,8 +27,12 @@ pub(crate) struct Layout {
     pub(crate) base: usize,
     /// Number of places, rounded up to whole tiles
     pub(crate) places: usize,
-    /// Zeros before and behind them: the farthest distance, rounded up
+    /// Zeros before them: the farthest distance, rounded up; none in slots
     pub(crate) pad: usize,
+    /// Zeros behind them: as many; in slots one per spring to a pin, rounded up
+    pub(crate) behind: usize,
+    /// In slots instead of runs: how many
+    pub(crate) slots: Option<Counts>,
     /// How many springs it was found from
     pub(crate) springs: usize,
 }
@@ -54,13 +59,22 @@ impl Pair {
 impl Layout {
     /// Of nothing.
     pub(crate) const fn none() -> Self {
-        Self { distance: [0; MOST_RUNS], runs: 0, base: 0, places: 0, pad: 0, springs: 0 }
+        Self {
+            distance: [0; MOST_RUNS],
+            runs: 0,
+            base: 0,
+            places: 0,
+            pad: 0,
+            behind: 0,
+            slots: None,
+            springs: 0,
+        }
     }
 
     /// Numbers in a plane.
     #[inline(always)]
     pub(crate) fn plane(&self) -> usize {
-        self.places + 2 * self.pad
+        self.pad + self.places + self.behind
     }
 
     /// The distances in use.
@@ -76,10 +90,20 @@ impl Layout {
         (0..self.places / WIDTH).map(move |k| pad + k * WIDTH)
     }
 
-    /// Where a particle lies in a plane.
+    /// Where a particle lies in a plane, in runs.
     #[inline(always)]
     pub(crate) fn place(&self, particle: u32) -> usize {
         (particle as usize).wrapping_sub(self.base).wrapping_add(self.pad)
+    }
+
+    /// How many words it has.
+    pub(crate) fn words(&self) -> usize {
+        self.slots.as_ref().map_or(self.springs, Counts::words)
+    }
+
+    /// The layout that an island has, with its counts: in runs, or else in slots. The blocks are scratch.
+    pub(crate) fn of<T: Real>(island: &mut IslandParts<'_, T>) -> Option<Self> {
+        Self::shape(island).or_else(|| slots::arrange(island))
     }
 
     /// Where the first of a spring's numbers lies among the Hessians' planes.
@@ -97,12 +121,13 @@ impl Layout {
         same.then_some(run)
     }
 
-    /// Finds the layout, and in `words` where each spring lies. `None` if the springs have too many distances, or the runs
-    /// would be mostly zeros.
+    /// Finds in `words` where each spring lies. `None` if two springs lie at one place.
     #[inline(never)]
-    pub(crate) fn find<T: Real>(island: &IslandParts<'_, T>, words: &mut [u32]) -> Option<Self> {
-        let mut layout = Self::shape(island)?;
-        layout.springs = island.matrix.other.len();
+    pub(crate) fn find<T: Real>(self, island: &mut IslandParts<'_, T>, words: &mut [u32]) -> Option<Self> {
+        if let Some(counts) = &self.slots {
+            return slots::fill(island, counts, words).map(|()| self);
+        }
+        let layout = self;
         // Two springs of the same distance cannot lie at the same place.
         let mut twice = false;
         let mut words = words.iter_mut();
@@ -123,7 +148,8 @@ impl Layout {
         (!twice).then_some(layout)
     }
 
-    /// The distances and the places; no memory is needed to see whether there are not too many.
+    /// The distances and the places of runs; no memory is needed to see whether there are not too many. `None` if there
+    /// are, or the runs would be mostly zeros.
     pub(crate) fn shape<T: Real>(island: &IslandParts<'_, T>) -> Option<Self> {
         let mut layout = Self::none();
         let rows = island.matrix.own.len();
@@ -142,6 +168,8 @@ impl Layout {
         layout.base = lowest as usize;
         layout.places = ((highest - lowest) as usize + 1).next_multiple_of(WIDTH);
         layout.pad = farthest.next_multiple_of(WIDTH);
+        layout.behind = layout.pad;
+        layout.springs = island.matrix.other.len();
         let springs = island.matrix.other.len();
         let worth_it = layout.runs * layout.places <= 2 * springs + 64
             && layout.places <= 2 * rows + 64

@@ -9,8 +9,9 @@ use crate::parts::IslandParts;
 use crate::real::Real;
 use crate::selection::Ends;
 use crate::vec3::Vec3;
-use crate::wide::eight::Planes;
+use crate::wide::eight::{Planes, WIDTH};
 use crate::wide::layout::Layout;
+use crate::wide::slots::Slots;
 use crate::wide::work::{Front, Workshop};
 
 /// Answers whether the layout still fits; if not, what was written is of no use.
@@ -44,22 +45,14 @@ pub(crate) fn load<T: Real, F: Force<T>, L: Law>(
     }
     let rows = matrix.own.len();
     let n = layout.plane();
-    let constants = if F::DAMPS { 3 } else { 2 };
     let mut springs = words.iter().zip(matrix.other).zip(island.spring);
     for (row, own) in matrix.own.iter().enumerate() {
         for ((word, other), j) in springs.by_ref().take(*own as usize) {
             let (other, j) = (*other as usize, *j as usize);
             let Some(pair) = island.pair(row, other) else { return false };
             let Some(run) = layout.run_of(*word, &pair) else { return false };
-            let spring = state.spring(j);
-            let at = constants * run * n + layout.place(pair.low);
-            set(front.springs, at, spring.stiffness);
-            let cable = state.ends.get(j).is_some_and(|pair| Ends::unpack(*pair).cable);
-            let rest = if L::slackens(cable) { -spring.rest_length } else { spring.rest_length };
-            set(front.springs, at + n, rest);
-            if F::DAMPS {
-                set(front.springs, at + 2 * n, forces.damping(j));
-            }
+            let at = constants::<F, T>() * run * n + layout.place(pair.low);
+            put_constants::<T, F, L>(island, forces, j, front.springs, [at, n]);
             if other >= rows {
                 let pin = if pair.turned { pair.low } else { pair.low + pair.distance };
                 workshop.velocity.put(layout.place(pin), island.end(other).velocity);
@@ -67,6 +60,94 @@ pub(crate) fn load<T: Real, F: Force<T>, L: Law>(
         }
     }
     true
+}
+
+/// The same in slots.
+#[inline(never)]
+pub(crate) fn load_slots<T: Real, F: Force<T>, L: Law>(
+    island: &IslandParts<'_, T>,
+    forces: &F,
+    layout: &Layout,
+    slots: &Slots<'_>,
+    front: &mut Front<'_, T>,
+    workshop: &mut Workshop<'_, T>,
+) -> bool {
+    let matrix = &island.matrix;
+    let rows = matrix.own.len();
+    if matrix.other.len() != layout.springs || rows != slots.places.len() {
+        return false;
+    }
+    let lists = slots.places.iter().zip(matrix.inertia.iter()).zip(island.vectors.b.iter()).enumerate();
+    for (row, ((at, m), b)) in lists {
+        let (at, end) = (*at as usize, island.end(row));
+        if let Some(place) = front.inertia.get_mut(at) {
+            *place = *m;
+        }
+        front.b.put(at, *b);
+        workshop.position.put(at, end.position);
+        workshop.velocity.put(at, end.velocity);
+    }
+    // Behind the rows lie the places without, and the ends that are pins.
+    for at in rows..layout.plane() {
+        if let Some(place) = front.inertia.get_mut(at) {
+            *place = T::ZERO;
+        }
+        front.b.put(at, [T::ZERO; 3]);
+        workshop.position.put(at, [T::ZERO; 3]);
+        workshop.velocity.put(at, [T::ZERO; 3]);
+    }
+    let mut pin = layout.places;
+    let mut springs = matrix.other.iter().zip(island.spring);
+    for (own, at) in matrix.own.iter().zip(slots.places) {
+        let (lane, range) = (*at as usize % WIDTH, slots.range(*at as usize / WIDTH, 0));
+        if *own as usize > range.len() {
+            return false;
+        }
+        for (slot, (other, j)) in range.zip(springs.by_ref().take(*own as usize)) {
+            let other = *other as usize;
+            let far = if other < rows {
+                slots.places.get(other).map_or(0, |place| *place as usize)
+            } else {
+                let end = island.end(other);
+                workshop.position.put(pin, end.position);
+                workshop.velocity.put(pin, end.velocity);
+                pin += 1;
+                pin - 1
+            };
+            let end = slots.own.get(slot).and_then(|ends| ends.get(lane));
+            if end.is_none_or(|end| *end as usize != far) {
+                return false;
+            }
+            let at = constants::<F, T>() * slot * WIDTH + lane;
+            put_constants::<T, F, L>(island, forces, *j as usize, front.springs, [at, WIDTH]);
+        }
+    }
+    true
+}
+
+/// Numbers that are kept of a spring.
+const fn constants<F: Force<T>, T: Real>() -> usize {
+    if F::DAMPS { 3 } else { 2 }
+}
+
+/// k, l₀ and c of a spring, the first at a place and each of the others so much further.
+#[inline(always)]
+fn put_constants<T: Real, F: Force<T>, L: Law>(
+    island: &IslandParts<'_, T>,
+    forces: &F,
+    j: usize,
+    to: &mut [T],
+    [at, further]: [usize; 2],
+) {
+    let state = island.matrix.rows.state;
+    let spring = state.spring(j);
+    set(to, at, spring.stiffness);
+    let cable = state.ends.get(j).is_some_and(|pair| Ends::unpack(*pair).cable);
+    let rest = if L::slackens(cable) { -spring.rest_length } else { spring.rest_length };
+    set(to, at + further, rest);
+    if F::DAMPS {
+        set(to, at + 2 * further, forces.damping(j));
+    }
 }
 
 /// Do all rows have a place?

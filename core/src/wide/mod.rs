@@ -1,14 +1,23 @@
-//! Block-Jacobi PCG in lanes: for hosts with vector registers, on scenes whose springs join particles at few distances in
-//! the numbering (cloths, nets, ropes, lattices).
+//! Block-Jacobi PCG in lanes: for hosts with vector registers.
 //!
-//! The same mathematics as [`crate::BlockJacobi`], with the island laid out in offset runs ([`layout`]) and planes
-//! ([`work`]): assembly, certificate, product, residual and bounds have no index and no scatter, eight rows side by side.
-//! Sums over rows run over places, so bits differ from those of [`crate::BlockJacobi`] in the last places; they are the same
-//! on every target, for every [`Dispatch`]. An island that has too many distances is left to
-//! [`crate::BlockJacobi`].
+//! The same mathematics as [`crate::BlockJacobi`], eight rows side by side, with the numbers in planes ([`work`]) and the
+//! springs in one of two layouts:
 //!
-//! Cost: `compare` in `benches/` measures it. Memory: 23 numbers per particle and 6 per particle and distance, on top of
-//! the scene's; with damping along springs 7 instead of 6.
+//! - *Offset runs* ([`layout`]), where springs join particles at few distances in the numbering (cloths, nets, ropes,
+//!   lattices): no index, no scatter.
+//! - *Slots* ([`slots`]), where they do not (tetrahedral meshes): rows sorted by their numbers of springs, other ends found
+//!   by index.
+//!
+//! Assembly, certificate, product, residual and bounds are written once over both ([`neighbours`]). Each row's sum is that of
+//! [`crate::System`] in its order (in runs, where springs come in the order of their other ends). Sums over rows run over
+//! places, so bits differ from those of [`crate::BlockJacobi`] in the last places; they are the same on every target, for
+//! every [`Dispatch`]. An island that fills neither layout (a star) is left to [`crate::BlockJacobi`]. The layout is found
+//! once, compared with the island at every step, and found anew when springs or pins have changed.
+//!
+//! Cost: `compare` in `benches/` measures it. Memory, on top of the scene's: in runs 23 numbers per particle and 6 per particle
+//! and distance. In slots 11 numbers per particle and 14 per spring (23 and 10 where a particle has fewer than three springs),
+//! 3 words per spring and 1 per particle, and a tenth more of what belongs to springs, for places that no spring takes. With
+//! damping along springs each of them has one number more.
 
 pub(crate) mod assembly;
 pub(crate) mod bound;
@@ -19,7 +28,9 @@ pub(crate) mod gather;
 pub(crate) mod island;
 pub(crate) mod layout;
 pub(crate) mod load;
+pub(crate) mod neighbours;
 pub(crate) mod product;
+pub(crate) mod slots;
 pub(crate) mod solve;
 pub(crate) mod sweep;
 pub(crate) mod work;
@@ -36,13 +47,15 @@ use crate::report::Solve;
 use crate::scene::MassSpring;
 use crate::solver::{Answer, BlockJacobi, Island, Problem, Solver, Stop};
 use crate::system::System;
+use eight::WIDTH;
 use island::Givens;
 use layout::Layout;
+use neighbours::Way;
+use slots::NUMBERS;
 pub use solve::Widened;
 use work::{Front, Iterates, Workshop};
 
-/// PCG over offset runs in a workspace of the caller's, preconditioned by `P`. An island without runs is left to `P`'s own
-/// way.
+/// PCG in lanes in a workspace of the caller's, preconditioned by `P`. An island without lanes is left to `P`'s own way.
 #[derive(Debug, Clone, Copy)]
 pub struct Wide<N, W, D = Portable, P = BlockJacobi> {
     numbers: N,
@@ -56,7 +69,7 @@ pub struct Wide<N, W, D = Portable, P = BlockJacobi> {
     damped: bool,
 }
 
-/// Block-Jacobi PCG over offset runs.
+/// Block-Jacobi PCG in lanes.
 pub type WideJacobi<N, W, D = Portable> = Wide<N, W, D, BlockJacobi>;
 
 impl<N, W, D: Dispatch> Wide<N, W, D> {
@@ -75,7 +88,7 @@ impl<N, W, D: Dispatch> Wide<N, W, D> {
 }
 
 impl<N, W, D, P> Wide<N, W, D, P> {
-    /// Was the last island solved in lanes? If not, its springs join particles at too many distances.
+    /// Was the last island solved in lanes? If not, neither layout would hold much but zeros.
     pub fn in_lanes(&self) -> bool {
         self.found
     }
@@ -89,33 +102,44 @@ impl Wide<(), ()> {
         let state = parts.network.state();
         let (mut numbers, mut words) = (0, 0);
         for k in 0..parts.islands.count {
-            let island = parts.islands.island(k, parts.work, &state);
-            if let Some(layout) = Layout::shape(&island) {
+            let mut island = parts.islands.island(k, parts.work, &state);
+            if let Some(layout) = Layout::of(&mut island) {
                 numbers = core::cmp::max(numbers, work::needs(&layout, damped));
-                words = core::cmp::max(words, island.matrix.other.len());
+                words = core::cmp::max(words, layout.words());
             }
         }
         (numbers, words)
     }
 }
 
+impl Wide<(), ()> {
+    /// Do the springs of some island join particles at few distances in the numbering, so that it is laid out in offset
+    /// runs? Runs are twice as fast as slots: such a numbering is worth keeping.
+    pub fn runs_of<M: Memory>(scene: &mut MassSpring<M>) -> bool {
+        let parts = scene.parts();
+        let state = parts.network.state();
+        (0..parts.islands.count)
+            .any(|k| Layout::shape(&parts.islands.island(k, parts.work, &state)).is_some())
+    }
+}
+
 impl<N, W, D: Dispatch, P> Wide<N, W, D, P> {
     /// Finds the layout of an island; answers whether it has one.
     #[inline(never)]
-    fn find<T: Real>(&mut self, island: &IslandParts<'_, T>, damped: bool) -> Result<bool, StepError>
+    fn find<T: Real>(&mut self, island: &mut IslandParts<'_, T>, damped: bool) -> Result<bool, StepError>
     where
         N: AsMut<[T]>,
         W: AsMut<[u32]>,
     {
         self.found = false;
-        let Some(layout) = Layout::shape(island) else { return Ok(false) };
-        let needs = (work::needs(&layout, damped), island.matrix.other.len());
+        let Some(layout) = Layout::of(island) else { return Ok(false) };
+        let needs = (work::needs(&layout, damped), layout.words());
         let (numbers, words) = (self.numbers.as_mut(), self.words.as_mut());
         let (Some(numbers), Some(words)) = (numbers.get_mut(..needs.0), words.get_mut(..needs.1)) else {
             return Err(StepError::Workspace { numbers: needs.0, words: needs.1 });
         };
         numbers.fill(T::ZERO);
-        let Some(layout) = Layout::find(island, words) else { return Ok(false) };
+        let Some(layout) = layout.find(island, words) else { return Ok(false) };
         (self.layout, self.found, self.damped) = (layout, true, damped);
         Ok(true)
     }
@@ -132,23 +156,25 @@ impl<N, W, D: Dispatch, P> Wide<N, W, D, P> {
         P: Preconditions<T>,
     {
         let (layout, dispatch) = (self.layout, self.dispatch);
-        let short = StepError::Workspace { numbers: work::needs(&layout, F::DAMPS), words: layout.springs };
-        let words = self.words.as_mut().get(..layout.springs).ok_or(short)?;
+        let short = StepError::Workspace { numbers: work::needs(&layout, F::DAMPS), words: layout.words() };
+        let words = &*self.words.as_mut().get_mut(..layout.words()).ok_or(short)?;
+        let way = Way::of(&layout, words).ok_or(short)?;
         let (mut front, behind) = work::cut(self.numbers.as_mut(), &layout, F::DAMPS).ok_or(short)?;
         let Island { island, forces, h, scaling } = to;
         let assembled = {
             let mut workshop = Workshop::cut(&mut *behind, &layout).ok_or(short)?;
             let (h, scaling, layout) = (*h, *scaling, &layout);
-            let mut givens = Givens { island, forces: &mut **forces, h, scaling, layout, words, dispatch };
+            let mut givens =
+                Givens { island, forces: &mut **forces, h, scaling, layout, words, way, dispatch };
             givens.assemble::<L>(&mut front, &mut workshop)?
         };
         let Some(assembled) = assembled else { return Ok(None) };
         if P::READS_SPRINGS {
-            put_back(island, &layout, words, &front);
+            put_back(island, &layout, words, &way, &front);
         }
         let work = Iterates::cut(behind, &layout).ok_or(short)?;
         let system = System { matrix: &island.matrix, forces: &**forces, points: assembled.points };
-        let lanes = Widened { layout, front, work, system, dispatch, free: assembled.free };
+        let lanes = Widened { layout: &layout, way, front, work, system, dispatch, free: assembled.free };
         let solve = self.preconditioner.solve_in_lanes(lanes, &mut *island.vectors.x, stop)?;
         Ok(Some(Answer { clamped: assembled.clamped, certified: assembled.certified, solve }))
     }
@@ -187,12 +213,29 @@ impl<T: Real> Preconditions<T> for BlockJacobi {
 }
 
 /// The Hessians into the scene's own list.
-fn put_back<T: Real>(island: &mut IslandParts<'_, T>, layout: &Layout, words: &[u32], front: &Front<'_, T>) {
-    let n = layout.plane();
-    for (to, word) in island.matrix.hessian.iter_mut().zip(words) {
-        let at = layout.at(*word);
+fn put_back<T: Real>(
+    island: &mut IslandParts<'_, T>,
+    layout: &Layout,
+    words: &[u32],
+    way: &Way<'_>,
+    front: &Front<'_, T>,
+) {
+    let put = |to: &mut [T; 4], at: usize, further: usize| {
         for (k, value) in to.iter_mut().enumerate() {
-            *value = front.hessians.get(at + k * n).copied().unwrap_or(T::ZERO);
+            *value = front.hessians.get(at + k * further).copied().unwrap_or(T::ZERO);
+        }
+    };
+    let Way::Slots(slots) = way else {
+        for (to, word) in island.matrix.hessian.iter_mut().zip(words) {
+            put(to, layout.at(*word), layout.plane());
+        }
+        return;
+    };
+    let mut springs = island.matrix.hessian.iter_mut();
+    for (own, place) in island.matrix.own.iter().zip(slots.places) {
+        let (lane, range) = (*place as usize % WIDTH, slots.range(*place as usize / WIDTH, 0));
+        for (slot, to) in range.zip(springs.by_ref().take(*own as usize)) {
+            put(to, slot * NUMBERS + lane, WIDTH);
         }
     }
 }

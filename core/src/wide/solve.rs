@@ -14,12 +14,14 @@ use crate::wide::dispatch::Dispatch;
 use crate::wide::eight::{Planes, all, load, store, where_positive};
 use crate::wide::gather::Matrix;
 use crate::wide::layout::Layout;
+use crate::wide::neighbours::{Way, either};
 use crate::wide::work::{Front, Iterates};
 use crate::wide::{bound, diagonal, product, sweep};
 
 /// One island in lanes, assembled; opaque.
 pub struct Widened<'s, 'a, T, F, D> {
-    pub(crate) layout: Layout,
+    pub(crate) layout: &'s Layout,
+    pub(crate) way: Way<'s>,
     pub(crate) front: Front<'a, T>,
     pub(crate) work: Iterates<'a, T>,
     pub(crate) system: System<'s, T, F>,
@@ -31,13 +33,17 @@ pub struct Widened<'s, 'a, T, F, D> {
 impl<T: Real, F: Force<T>, D: Dispatch> Widened<'_, '_, T, F, D> {
     /// D⁻¹ into the work.
     pub(crate) fn invert_diagonal(&mut self) {
-        let Self { layout, front, work, system, dispatch, .. } = self;
+        let Self { layout, way, front, work, system, dispatch, .. } = self;
         let Front { inertia, hessians, .. } = front;
         dispatch.run(
             #[inline(always)]
-            || diagonal::blocks(layout, hessians, inertia, &mut work.inverse),
+            || {
+                either!(*way, neighbours => {
+                    diagonal::blocks(neighbours, layout, hessians, inertia, &mut work.inverse);
+                });
+            },
         );
-        each_point(system, layout, |at, h| {
+        each_point(system, way, |at, h| {
             let added = Sym3::scalar(h.alpha).plus_outer(h.w).0;
             for (plane, added) in work.inverse.iter_mut().zip(added) {
                 if let Some(entry) = plane.get_mut(at) {
@@ -58,11 +64,11 @@ impl<T: Real, F: Force<T>, D: Dispatch> Widened<'_, '_, T, F, D> {
         x: &mut [Vec3<T>],
         stop: &Stop<T>,
     ) -> Solve<T> {
-        let Self { layout, front, work, system, dispatch, free } = self;
-        let mut lanes = Lanes { layout, front, work, system, dispatch, preconditioner };
+        let Self { layout, way, front, work, system, dispatch, free } = self;
+        let mut lanes = Lanes { layout, way, front, work, system, dispatch, preconditioner };
         let solve = pcg::drive(&mut lanes, stop, free);
-        for (x, particle) in x.iter_mut().zip(lanes.system.matrix.rows.particle) {
-            *x = lanes.work.x.row(layout.place(*particle));
+        for (row, (x, particle)) in x.iter_mut().zip(lanes.system.matrix.rows.particle).enumerate() {
+            *x = lanes.work.x.row(way.place(row, *particle));
         }
         solve
     }
@@ -70,7 +76,8 @@ impl<T: Real, F: Force<T>, D: Dispatch> Widened<'_, '_, T, F, D> {
 
 /// The same with what preconditions it.
 struct Lanes<'s, 'a, T, F, D, P> {
-    layout: Layout,
+    layout: &'s Layout,
+    way: Way<'s>,
     front: Front<'a, T>,
     work: Iterates<'a, T>,
     system: System<'s, T, F>,
@@ -89,6 +96,7 @@ pub(crate) trait Preconditioner<T: Real> {
 /// What a preconditioner works on.
 pub(crate) struct Sweep<'w, 'a, T> {
     pub(crate) layout: &'w Layout,
+    pub(crate) way: Way<'w>,
     pub(crate) work: &'w mut Iterates<'a, T>,
     pub(crate) weight: &'w [T],
     /// The particle of each row
@@ -116,14 +124,14 @@ impl<T: Real> Preconditioner<T> for Diagonal {
 #[inline(always)]
 pub(crate) fn each_point<T: Real, F: Force<T>>(
     system: &System<'_, T, F>,
-    layout: &Layout,
+    way: &Way<'_>,
     mut visit: impl FnMut(usize, Hessian<T>),
 ) {
     system.each_point(
         #[inline(always)]
         |row, h| {
             if let Some(particle) = system.matrix.rows.particle.get(row) {
-                visit(layout.place(*particle), h);
+                visit(way.place(row, *particle), h);
             }
         },
     );
@@ -138,11 +146,10 @@ fn residual<T: Real, F: Force<T>>(
     [b, x]: [&Planes<'_, T>; 2],
     [r, error]: [&mut Planes<'_, T>; 2],
 ) -> T {
-    let layout = matrix.layout;
     bound::product(matrix, x, r, error);
     each_point(
         system,
-        layout,
+        &matrix.way,
         #[inline(always)]
         |at, h| {
             let (d, y) = (x.row(at), r.row(at));
@@ -152,7 +159,7 @@ fn residual<T: Real, F: Force<T>>(
             error.put(at, g);
         },
     );
-    bound::finish(layout, b, weight, r, error)
+    bound::finish(matrix.layout, b, weight, r, error)
 }
 
 impl<T: Real, F: Force<T>, D: Dispatch, P: Preconditioner<T>> pcg::Iterates<T> for Lanes<'_, '_, T, F, D, P> {
@@ -196,7 +203,7 @@ impl<T: Real, F: Force<T>, D: Dispatch, P: Preconditioner<T>> pcg::Iterates<T> f
     }
 
     fn check(&mut self, free: bool) -> T {
-        let Self { layout, front, work, system, dispatch, .. } = self;
+        let Self { layout, way, front, work, system, dispatch, .. } = self;
         let Front { b, inertia, mu, hessians, .. } = front;
         dispatch.run(
             #[inline(always)]
@@ -205,22 +212,23 @@ impl<T: Real, F: Force<T>, D: Dispatch, P: Preconditioner<T>> pcg::Iterates<T> f
                     keep_momentum(layout, inertia, b, &mut work.x);
                 }
                 let Iterates { x, r, p, .. } = work;
-                T::HALF * residual(system, Matrix { layout, hessians, inertia }, mu, [b, x], [r, p])
+                T::HALF
+                    * residual(system, Matrix { layout, way: *way, hessians, inertia }, mu, [b, x], [r, p])
             },
         )
     }
 
     fn rounding(&mut self) -> T {
-        bound::weighted(&self.layout, &self.work.p, self.front.mu)
+        bound::weighted(self.layout, &self.work.p, self.front.mu)
     }
 
     #[cold]
     fn attainable(&mut self, updates: u32) -> T {
-        let Self { layout, front, work, system, .. } = self;
+        let Self { layout, way, front, work, system, .. } = self;
         let Iterates { x, p, y, .. } = work;
         let (hessians, inertia) = (&*front.hessians, &*front.inertia);
-        bound::attainable(Matrix { layout, hessians, inertia }, x, y);
-        each_point(system, layout, |at, h| {
+        bound::attainable(Matrix { layout, way: *way, hessians, inertia }, x, y);
+        each_point(system, way, |at, h| {
             let most = h.alpha.abs() + vec3::dot(h.w, h.w);
             y.put(at, vec3::add_scaled(y.row(at), most, vec3::map(x.row(at), T::abs)));
         });
@@ -230,12 +238,12 @@ impl<T: Real, F: Force<T>, D: Dispatch, P: Preconditioner<T>> pcg::Iterates<T> f
             y.store(at, size);
         }
         let beta = bound::weighted(layout, y, front.mu);
-        y.clear_margins(layout.pad);
+        y.clear_margins(layout.pad, layout.behind);
         beta
     }
 
     fn iterate(&mut self, target: T, max_iterations: u32, iterations: &mut u32) -> bool {
-        let Self { layout, front, work, system, dispatch, preconditioner } = self;
+        let Self { layout, way, front, work, system, dispatch, preconditioner } = self;
         dispatch.run(
             #[inline(always)]
             || {
@@ -248,7 +256,7 @@ impl<T: Real, F: Force<T>, D: Dispatch, P: Preconditioner<T>> pcg::Iterates<T> f
                 let (mut step, mut rz) = (T::ZERO, T::ZERO);
                 loop {
                     let rows = system.matrix.rows.particle;
-                    let to = Sweep { layout, work, weight: front.mu, rows, step, target };
+                    let to = Sweep { layout, way: *way, work, weight: front.mu, rows, step, target };
                     let (beta, next) = preconditioner.sweep(to);
                     if !(T::HALF * beta > target) || *iterations >= max_iterations {
                         return false;
@@ -259,10 +267,10 @@ impl<T: Real, F: Force<T>, D: Dispatch, P: Preconditioner<T>> pcg::Iterates<T> f
                     sweep::direction(layout, work, if rz > T::ZERO { next / rz } else { T::ZERO });
                     let Iterates { p, y, .. } = &mut *work;
                     let (hessians, inertia) = (&*front.hessians, &*front.inertia);
-                    let mut form = product::over_runs(Matrix { layout, hessians, inertia }, p, y);
+                    let mut form = product::over_runs(Matrix { layout, way: *way, hessians, inertia }, p, y);
                     each_point(
                         system,
-                        layout,
+                        way,
                         #[inline(always)]
                         |at, h| {
                             let (product, energy) = h.mul_and_form(p.row(at));
@@ -291,18 +299,18 @@ impl<T: Real, F: Force<T>, D: Dispatch, P: Preconditioner<T>> pcg::Iterates<T> f
     }
 
     fn lower(&mut self) -> T {
-        let Self { layout, front, work, system, dispatch, preconditioner } = self;
+        let Self { layout, way, front, work, system, dispatch, preconditioner } = self;
         let Front { b, inertia, mu, hessians, .. } = front;
         dispatch.run(
             #[inline(always)]
             || {
                 let (step, target) = (T::ZERO, T::ZERO);
                 let rows = system.matrix.rows.particle;
-                preconditioner.apply(Sweep { layout, work, weight: mu, rows, step, target });
+                preconditioner.apply(Sweep { layout, way: *way, work, weight: mu, rows, step, target });
                 let Iterates { r, p, y, .. } = work;
                 let of_r = bound::products(layout, r, p, y);
                 // t = r − A z into b, its δ into p.
-                residual(system, Matrix { layout, hessians, inertia }, mu, [r, y], [b, p]);
+                residual(system, Matrix { layout, way: *way, hessians, inertia }, mu, [r, y], [b, p]);
                 gain(layout.places, of_r, bound::products(layout, b, p, y))
             },
         )

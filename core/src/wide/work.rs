@@ -2,8 +2,9 @@
 //! from assembly to answer; behind it first lies what assembly works in, then, in the same place, what the solve works in.
 
 use crate::real::Real;
-use crate::wide::eight::{Eight, Planes, load};
+use crate::wide::eight::{Eight, Planes, WIDTH, load};
 use crate::wide::layout::Layout;
+use crate::wide::slots::{Counts, NUMBERS};
 
 /// A, b and μ.
 pub(crate) struct Front<'a, T> {
@@ -12,9 +13,9 @@ pub(crate) struct Front<'a, T> {
     pub(crate) inertia: &'a mut [T],
     /// The charges, then μ, then 1/μ; 0 where there is no row
     pub(crate) mu: &'a mut [T],
-    /// α and w of each run's springs, planes one after the other
+    /// α and w of each run's springs, planes one after the other; in slots [`NUMBERS`] of each
     pub(crate) hessians: &'a mut [T],
-    /// k and l₀ of each run's springs, and c if there is damping
+    /// k and l₀ of each run's or own slot's springs, and c if there is damping
     pub(crate) springs: &'a mut [T],
 }
 
@@ -22,7 +23,7 @@ pub(crate) struct Front<'a, T> {
 pub(crate) struct Workshop<'a, T> {
     pub(crate) position: Planes<'a, T>,
     pub(crate) velocity: Planes<'a, T>,
-    /// Per run what each spring adds to b at its lower end, three planes
+    /// Per run what each spring adds to b at its lower end, three planes; [`NUMBERS`] of each own slot
     pub(crate) pulls: &'a mut [T],
 }
 
@@ -38,16 +39,20 @@ pub(crate) struct Iterates<'a, T> {
     pub(crate) inverse: [&'a mut [T]; 6],
 }
 
-/// Planes of a run's constants.
-const fn constants(damped: bool) -> usize {
-    if damped { 3 } else { 2 }
+/// How many numbers the springs' Hessians, constants and pulls are.
+fn of_springs(layout: &Layout, damped: bool) -> [usize; 3] {
+    let constants = if damped { 3 } else { 2 };
+    match &layout.slots {
+        Some(Counts { own, above, .. }) => [NUMBERS * (own + above), WIDTH * constants * own, NUMBERS * own],
+        None => [4, constants, 3].map(|planes| planes * layout.runs * layout.plane()),
+    }
 }
 
 /// Numbers of a layout.
 pub(crate) fn needs(layout: &Layout, damped: bool) -> usize {
-    let (workshop, iterates) = (6 + 3 * layout.runs, 18);
-    let behind = if workshop > iterates { workshop } else { iterates };
-    (5 + (4 + constants(damped)) * layout.runs + behind) * layout.plane()
+    let [hessians, constants, pulls] = of_springs(layout, damped);
+    let n = layout.plane();
+    5 * n + hessians + constants + core::cmp::max(6 * n + pulls, 18 * n)
 }
 
 /// Takes planes off a buffer.
@@ -57,14 +62,18 @@ struct Cutter<'a, T> {
 }
 
 impl<'a, T: Real> Cutter<'a, T> {
-    fn planes(&mut self, n: usize) -> Option<&'a mut [T]> {
-        let (front, rest) = core::mem::take(&mut self.rest).split_at_mut_checked(n * self.plane)?;
+    fn plane(&mut self) -> Option<&'a mut [T]> {
+        self.numbers(self.plane)
+    }
+
+    fn numbers(&mut self, n: usize) -> Option<&'a mut [T]> {
+        let (front, rest) = core::mem::take(&mut self.rest).split_at_mut_checked(n)?;
         self.rest = rest;
         Some(front)
     }
 
     fn vectors(&mut self) -> Option<Planes<'a, T>> {
-        Some(Planes([self.planes(1)?, self.planes(1)?, self.planes(1)?]))
+        Some(Planes([self.plane()?, self.plane()?, self.plane()?]))
     }
 }
 
@@ -75,12 +84,13 @@ pub(crate) fn cut<'a, T: Real>(
     damped: bool,
 ) -> Option<(Front<'a, T>, &'a mut [T])> {
     let mut cutter = Cutter { rest: buffer, plane: layout.plane() };
+    let [hessians, constants, _] = of_springs(layout, damped);
     let front = Front {
         b: cutter.vectors()?,
-        inertia: cutter.planes(1)?,
-        mu: cutter.planes(1)?,
-        hessians: cutter.planes(4 * layout.runs)?,
-        springs: cutter.planes(constants(damped) * layout.runs)?,
+        inertia: cutter.plane()?,
+        mu: cutter.plane()?,
+        hessians: cutter.numbers(hessians)?,
+        springs: cutter.numbers(constants)?,
     };
     Some((front, cutter.rest))
 }
@@ -89,7 +99,8 @@ impl<'a, T: Real> Workshop<'a, T> {
     pub(crate) fn cut(behind: &'a mut [T], layout: &Layout) -> Option<Self> {
         let mut cutter = Cutter { rest: behind, plane: layout.plane() };
         let (position, velocity) = (cutter.vectors()?, cutter.vectors()?);
-        Some(Self { position, velocity, pulls: cutter.planes(3 * layout.runs)? })
+        let [.., pulls] = of_springs(layout, false);
+        Some(Self { position, velocity, pulls: cutter.numbers(pulls)? })
     }
 }
 
@@ -99,44 +110,15 @@ impl<'a, T: Real> Iterates<'a, T> {
         let (mut x, r, mut p, mut y) =
             (cutter.vectors()?, cutter.vectors()?, cutter.vectors()?, cutter.vectors()?);
         for planes in [&mut x, &mut p, &mut y] {
-            planes.clear_margins(layout.pad);
+            planes.clear_margins(layout.pad, layout.behind);
         }
-        let mut plane = || cutter.planes(1);
+        let mut plane = || cutter.plane();
         let inverse = [plane()?, plane()?, plane()?, plane()?, plane()?, plane()?];
         Some(Self { x, r, p, y, inverse })
     }
 }
 
-/// Eight of a run's springs: N planes, one after the other.
-#[inline(always)]
-pub(crate) fn of_run<T: Real, const N: usize>(
-    planes: &[T],
-    plane: usize,
-    run: usize,
-    at: usize,
-) -> [Eight<T>; N] {
-    let mut out = [crate::wide::eight::all(T::ZERO); N];
-    for (k, out) in out.iter_mut().enumerate() {
-        *out = load(planes, (N * run + k) * plane + at);
-    }
-    out
-}
-
-/// Writes them.
-#[inline(always)]
-pub(crate) fn put_of_run<T: Real, const N: usize>(
-    planes: &mut [T],
-    plane: usize,
-    run: usize,
-    at: usize,
-    values: [Eight<T>; N],
-) {
-    for (k, value) in values.into_iter().enumerate() {
-        crate::wide::eight::store(planes, (N * run + k) * plane + at, value);
-    }
-}
-
-/// α and w as a Hessian of eight springs.
+/// α and w as a Hessian of eight springs of a run.
 #[inline(always)]
 pub(crate) fn hessians<T: Real>(
     planes: &[T],
@@ -144,6 +126,6 @@ pub(crate) fn hessians<T: Real>(
     run: usize,
     at: usize,
 ) -> crate::hessian::Hessian<Eight<T>> {
-    let [alpha, x, y, z] = of_run(planes, plane, run, at);
-    crate::hessian::Hessian { alpha, w: [x, y, z] }
+    let number = |k: usize| load(planes, (4 * run + k) * plane + at);
+    crate::hessian::Hessian { alpha: number(0), w: [number(1), number(2), number(3)] }
 }

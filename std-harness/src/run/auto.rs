@@ -20,7 +20,7 @@ use std::fmt::Write;
 
 use hooke::Stop;
 
-use super::solver::{Fill, METHODS, Method, in_lanes, minimum_degree};
+use super::solver::{Fill, METHODS, Method, in_runs, minimum_degree};
 use super::structure::{Island, islands};
 use crate::cli::Precision;
 use crate::scene::Model;
@@ -83,7 +83,7 @@ pub struct Case {
     pub islands: Vec<Island>,
     /// How often a solve must halve its residual.
     pub halvings: f64,
-    /// Do its springs lie in lanes?
+    /// Do its springs lie in offset runs?
     pub lanes: bool,
     /// The sparse factor, if an order was looked for.
     pub fill: Option<Fill>,
@@ -101,7 +101,7 @@ impl Case {
         Self {
             islands: islands(model, dt),
             halvings: halvings(tolerance.unwrap_or(usual), most),
-            lanes: in_lanes(model),
+            lanes: in_runs(model),
             fill: small.then(|| minimum_degree(&model.pinned, springs).1),
         }
     }
@@ -129,7 +129,7 @@ impl Case {
         };
         match method {
             Method::Jacobi => Ok(iterate(&w.jacobi, Self::difficulty)),
-            Method::Wide if !self.lanes => Err("its springs join particles at too many distances"),
+            Method::Wide if !self.lanes => Err("its springs lie in no runs, and slots have no weights"),
             Method::Wide => Ok(iterate(&w.wide, Self::difficulty)),
             Method::Multigrid => {
                 let w = if self.lanes { &w.multigrid } else { &w.loose };
@@ -271,7 +271,7 @@ mod tests {
         }
         let choice = choose(&model, 0.01, None, Precision::F64);
         assert!(
-            choice.reason.ends_with("; wide cannot: its springs join particles at too many distances"),
+            choice.reason.ends_with("; wide cannot: its springs lie in no runs, and slots have no weights"),
             "{}",
             choice.reason
         );

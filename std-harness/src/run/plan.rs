@@ -10,7 +10,7 @@ use crate::nearest;
 use crate::output::safe;
 use crate::run::auto;
 use crate::run::recorder::FILES;
-use crate::run::solver::{METHODS, Method, in_lanes};
+use crate::run::solver::{METHODS, Method, in_runs};
 use crate::scene::renumber::Numbering;
 use crate::scene::{Model, renumber, source};
 
@@ -215,7 +215,7 @@ fn resolved(path: &Path) -> PathBuf {
 /// Reverse Cuthill–McKee where it brings springs' ends closer together, and a note of what became of it. A numbering of
 /// few distances (a grid's) is kept: lanes live on it, and what they gain is more.
 fn renumbered(model: &mut Model) -> Option<Numbering> {
-    if in_lanes(model) {
+    if in_runs(model) {
         model.notes.push("not renumbered: springs join particles at few distances already".into());
         return None;
     }

@@ -21,7 +21,7 @@ pub enum Method {
     Ssor,
     /// Block-D-ILU PCG.
     Ilu,
-    /// Block-Jacobi PCG in lanes, on scenes whose springs join particles at few distances.
+    /// Block-Jacobi PCG in lanes.
     Wide,
     /// PCG around one aggregation-multigrid cycle in f32.
     Multigrid,
@@ -229,10 +229,10 @@ fn sparse<M: Memory, N: Numbers<M::Real>>(
     smaller
 }
 
-/// Do the springs of some island join particles at few distances in the numbering, so that [`Method::Wide`] has lanes?
-pub fn in_lanes(model: &Model) -> bool {
+/// Do the springs of some island join particles at few distances in the numbering, so that lanes are offset runs?
+pub fn in_runs(model: &Model) -> bool {
     // A model that the kernel refuses has none.
-    model.build::<f64>().is_ok_and(|mut scene| WideJacobi::needs_of(&mut scene, true).0 > 0)
+    model.build::<f64>().is_ok_and(|mut scene| WideJacobi::runs_of(&mut scene))
 }
 
 /// How much a sparse factor is.

@@ -19,6 +19,7 @@ crate::entry_point::entry_points! {
         WideJacobi::new(numbers, words, Portable)
     }
     Wide::needs_of(s: &mut S<T>, damped: bool) -> (usize, usize) { WideJacobi::needs_of(s, damped) }
+    Wide::runs_of(s: &mut S<T>) -> bool { WideJacobi::runs_of(s) }
     Wide::in_lanes(wide: &Wide<'_, T>) -> bool { wide.in_lanes() }
     Solver::solve[wide](
         wide: &mut Wide<'_, T>, problem: Problem<'_, '_, T, All<'_, T>>, stop: &Stop<T>,

@@ -18,7 +18,7 @@ use crate::solver::pcg::Iteration;
 use crate::sym3::Sym3;
 use crate::system::System;
 use crate::vec3::{self, Vec3};
-use crate::wide::layout::Layout;
+use crate::wide::neighbours::Way;
 use crate::wide::solve::Sweep;
 use crate::wide::work::Iterates;
 use crate::wide::{self, Dispatch};
@@ -144,23 +144,23 @@ impl<T: Real, D: Dispatch> wide::solve::Preconditioner<T> for Preconditioner<'_,
         if !(T::HALF * beta > to.target) {
             return (beta, T::ZERO);
         }
-        self.in_lanes(to.layout, to.work, to.rows, most);
+        self.in_lanes(to.way, to.work, to.rows, most);
         (beta, wide::sweep::dot(to.layout, to.work))
     }
 
     #[inline(always)]
     fn apply(&mut self, to: Sweep<'_, '_, T>) {
         let most = wide::sweep::update(to.layout, to.work, to.weight, T::ZERO).1;
-        self.in_lanes(to.layout, to.work, to.rows, most);
+        self.in_lanes(to.way, to.work, to.rows, most);
     }
 }
 
 impl<T: Real, D: Dispatch> Preconditioner<'_, T, D> {
     /// y = B r in planes of places.
     #[inline(never)]
-    fn in_lanes(&mut self, layout: &Layout, work: &mut Iterates<'_, T>, rows: &[u32], most: T) {
+    fn in_lanes(&mut self, way: Way<'_>, work: &mut Iterates<'_, T>, rows: &[u32], most: T) {
         let Iterates { r, y, .. } = work;
-        let places = || rows.iter().map(|particle| layout.place(*particle));
+        let places = || rows.iter().enumerate().map(|(row, particle)| way.place(row, *particle));
         if self.cycle(places().map(|at| r.row(at)), most) {
             for (at, z) in places().zip(self.solved(most)) {
                 y.put(at, z);
