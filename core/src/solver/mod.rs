@@ -11,7 +11,7 @@ pub(crate) mod jacobi;
 mod multigrid;
 mod panel;
 pub(crate) mod pcg;
-mod pivot;
+pub(crate) mod pivot;
 mod sparse_ldl;
 mod ssor;
 mod supernodes;

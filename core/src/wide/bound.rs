@@ -175,3 +175,29 @@ pub(crate) fn attainable<T: Real>(
         size.store(at, where_positive(m, sum));
     }
 }
+
+/// νᵢ = m̃ᵢ + Σ c (max(0, α) + |w|²), c = 2 if the other end is a row too, else 1: A ⪯ diag(ν).
+#[inline(always)]
+pub(crate) fn row_sum<T: Real>(
+    Matrix { layout, hessians: planes, inertia }: Matrix<'_, T>,
+    at: usize,
+) -> Eight<T> {
+    let n = layout.plane();
+    let mut sum = load(inertia, at);
+    for (run, d) in layout.distances().iter().enumerate() {
+        let d = *d as usize;
+        for (spring, other) in [(at - d, at - d), (at, at + d)] {
+            let h = hessians(planes, n, run, spring);
+            let most = h.alpha.positive_then(h.alpha) + vec3::dot(h.w, h.w);
+            sum = sum + (most + load(inertia, other).positive_then(most));
+        }
+    }
+    sum
+}
+
+/// (|r| − δ)₊
+#[inline(always)]
+pub(crate) fn beyond<T: Real>(r: Vec3<Eight<T>>, error: Vec3<Eight<T>>) -> Vec3<Eight<T>> {
+    let [x, y, z] = vec3::sub(magnitude(r), error);
+    [x.positive_then(x), y.positive_then(y), z.positive_then(z)]
+}

@@ -32,23 +32,7 @@ impl<T: Real, F: Force<T>, D: Dispatch> Widened<'_, '_, T, F, D> {
     /// D⁻¹ into the work.
     pub(crate) fn invert_diagonal(&mut self) {
         let Self { layout, front, work, system, dispatch, .. } = self;
-        let Front { inertia, hessians, .. } = front;
-        dispatch.run(
-            #[inline(always)]
-            || diagonal::blocks(layout, hessians, inertia, &mut work.inverse),
-        );
-        each_point(system, layout, |at, h| {
-            let added = Sym3::scalar(h.alpha).plus_outer(h.w).0;
-            for (plane, added) in work.inverse.iter_mut().zip(added) {
-                if let Some(entry) = plane.get_mut(at) {
-                    *entry += added;
-                }
-            }
-        });
-        dispatch.run(
-            #[inline(always)]
-            || diagonal::invert(layout, inertia, &mut work.inverse),
-        );
+        invert_diagonal(layout, front, work, system, *dispatch);
     }
 
     /// Solves it; the answer goes to `x`.
@@ -58,23 +42,65 @@ impl<T: Real, F: Force<T>, D: Dispatch> Widened<'_, '_, T, F, D> {
         x: &mut [Vec3<T>],
         stop: &Stop<T>,
     ) -> Solve<T> {
-        let Self { layout, front, work, system, dispatch, free } = self;
-        let mut lanes = Lanes { layout, front, work, system, dispatch, preconditioner };
+        let free = self.free;
+        let mut lanes = self.preconditioned(preconditioner);
         let solve = pcg::drive(&mut lanes, stop, free);
-        for (x, particle) in x.iter_mut().zip(lanes.system.matrix.rows.particle) {
-            *x = lanes.work.x.row(layout.place(*particle));
-        }
+        lanes.hand_out(x);
         solve
     }
 }
 
-/// The same with what preconditions it.
-struct Lanes<'s, 'a, T, F, D, P> {
-    layout: Layout,
-    front: Front<'a, T>,
-    work: Iterates<'a, T>,
-    system: System<'s, T, F>,
+impl<'s, 'a, T: Real, F: Force<T>, D: Dispatch> Widened<'s, 'a, T, F, D> {
+    /// With what preconditions it.
+    pub(crate) fn preconditioned<P: Preconditioner<T>>(self, preconditioner: P) -> Lanes<'s, 'a, T, F, D, P> {
+        let Self { layout, front, work, system, dispatch, .. } = self;
+        Lanes { layout, front, work, system, dispatch, preconditioner }
+    }
+}
+
+impl<T: Real, F: Force<T>, D: Dispatch, P> Lanes<'_, '_, T, F, D, P> {
+    /// The answer to `x`, row by row.
+    pub(crate) fn hand_out(&self, x: &mut [Vec3<T>]) {
+        for (x, particle) in x.iter_mut().zip(self.system.matrix.rows.particle) {
+            *x = self.work.x.row(self.layout.place(*particle));
+        }
+    }
+}
+
+/// D⁻¹ into the work.
+pub(crate) fn invert_diagonal<T: Real, F: Force<T>, D: Dispatch>(
+    layout: &Layout,
+    front: &Front<'_, T>,
+    work: &mut Iterates<'_, T>,
+    system: &System<'_, T, F>,
     dispatch: D,
+) {
+    let Front { inertia, hessians, .. } = front;
+    dispatch.run(
+        #[inline(always)]
+        || diagonal::blocks(layout, hessians, inertia, &mut work.inverse),
+    );
+    each_point(system, layout, |at, h| {
+        let added = Sym3::scalar(h.alpha).plus_outer(h.w).0;
+        for (plane, added) in work.inverse.iter_mut().zip(added) {
+            if let Some(entry) = plane.get_mut(at) {
+                *entry += added;
+            }
+        }
+    });
+    dispatch.run(
+        #[inline(always)]
+        || diagonal::invert(layout, inertia, &mut work.inverse),
+    );
+}
+
+/// The same with what preconditions it.
+pub(crate) struct Lanes<'s, 'a, T, F, D, P> {
+    pub(crate) layout: Layout,
+    pub(crate) front: Front<'a, T>,
+    pub(crate) work: Iterates<'a, T>,
+    pub(crate) system: System<'s, T, F>,
+    pub(crate) dispatch: D,
     preconditioner: P,
 }
 
