@@ -4,17 +4,20 @@
 //! With couplings −C between rows k and k + 1, C = αI + wwᵀ, and −F between row k and the last row of the piece before
 //! (the *spike*; F₀ is the coupling itself):
 //!
-//! S = M̃ + H + R,  g = S⁻¹w, q = αg + ½(wᵀg)w,  C S⁻¹C = α²S⁻¹ + wqᵀ + qwᵀ,  R₊ = H − C S⁻¹C,
-//! F₊ = C S⁻¹F,  and the last row of the piece before loses FᵀS⁻¹F.
+//! S = M̃ + H + R,  R₊ = H − C S⁻¹C,  F₊ = C S⁻¹F,  and the last row of the piece before loses FᵀS⁻¹F.
 //!
-//! H is what the spring to the next row adds to both diagonals: C, or where the next is a pin only that. The last rows are a
-//! chain of eight with full couplings, eliminated one after the other. To solve: y = S⁻¹u, u₊ = b₊ + C y inwards, Fᵀy to the
-//! last row before; the eight; x = y + S⁻¹(C x₊ + F x₀) outwards.
+//! H is what the spring to the next row adds to both diagonals: C, or where the next is a pin only that. What is no row has
+//! S = I, C = 0. The last rows are a chain of eight with full couplings, eliminated one after the other. To solve: y = S⁻¹u,
+//! u₊ = b₊ + C y inwards, Fᵀy to the last row before; the eight; x = y + S⁻¹(C x₊ + F x₀) outwards. Pivots and spikes are
+//! two sweeps: in one there are more numbers at hand than registers.
 //!
-//! Cost per row: 270 flops to factor, 100 to solve, two divisions for eight rows. Memory: 22 numbers per place.
-//! What is no row has S = I, C = 0. The number of pieces is a part of the definition: it is eight on every machine.
+//! The number of pieces is a part of the definition: eight on every machine, L = places/8. So bits are the same for every
+//! [`crate::Dispatch`]; they are not those of [`crate::solver::chain`], which has other pieces.
 //!
-//! Sources: Wang 1981 (partition method); Meurant 1992 (block tridiagonal inverses).
+//! Cost per row: 290 flops to factor with the way inwards, 50 for the way outwards; two divisions for eight rows, which wait
+//! for each other along a piece only. Memory: 22 numbers per place.
+//!
+//! Sources: Wang 1981 (partition method); Meurant 1992 (block tridiagonal matrices).
 
 use crate::hessian::Hessian;
 use crate::real::Real;
