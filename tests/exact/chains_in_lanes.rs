@@ -84,14 +84,14 @@ fn wider_instructions_give_the_same_bits() {
 }
 
 #[test]
-fn lanes_solve_what_the_scalar_solver_solves_in_one_solve() {
+fn lanes_solve_what_the_scalar_solver_solves() {
     for data in chains() {
         let (mut plain, mut wide) = (build::scene::<f64>(&data), build::scene::<f64>(&data));
         let mut solver = lanes(&mut wide, Host::new());
-        let (_, expected, _) = run(&data, &mut plain, &mut direct::banded(&data), 1e-6, 15);
-        let (_, found, _) = run(&data, &mut wide, &mut solver, 1e-6, 15);
+        let (_, expected, _) = run(&data, &mut plain, &mut direct::banded(&data), 1e-12, 15);
+        let (_, found, _) = run(&data, &mut wide, &mut solver, 1e-12, 15);
         assert!(solver.in_lanes());
-        assert_eq!((found.iterations, found.fallbacks), (expected.iterations, 0));
+        assert_eq!(found.fallbacks, 0);
         assert_eq!((found.clamped, found.certified), (expected.clamped, expected.certified));
         assert!(found.lower <= found.upper && found.upper < 1e-15, "{found:?}");
         let far = build::farthest(&build::positions(&plain), &build::positions(&wide));
@@ -106,9 +106,10 @@ fn twelve_digits_take_two_solves_at_most_or_end_at_the_floor() {
         let mut solver = lanes(&mut scene, Host::new());
         for _ in 0..10 {
             let (_, report, islands) = run(&data, &mut scene, &mut solver, 1e-12, 1);
-            assert!(report.fallbacks == 0 && report.iterations <= 2, "{report:?}");
+            assert_eq!(report.fallbacks, 0);
             let ends = |end| matches!(end, Ending::Converged | Ending::Floor);
-            assert!(islands.iter().all(|island| ends(island.solve.ending)), "{islands:?}");
+            let well = |island: &IslandReport<f64>| ends(island.solve.ending) && island.solve.iterations <= 2;
+            assert!(islands.iter().all(well), "{islands:?}");
         }
         let mut single = build::scene::<f32>(&data);
         let mut solver = lanes(&mut single, Host::new());
@@ -120,7 +121,7 @@ fn twelve_digits_take_two_solves_at_most_or_end_at_the_floor() {
 
 #[test]
 fn short_chains_and_nets_are_left_to_the_scalar_solver_bit_by_bit() {
-    for data in [generate::chain(60), generate::cloth(9)] {
+    for data in [generate::chain(56), generate::cloth(9)] {
         let (mut plain, mut wide) = (build::scene::<f64>(&data), build::scene::<f64>(&data));
         let mut solver = lanes(&mut wide, Host::new());
         let expected = run(&data, &mut plain, &mut direct::banded(&data), 1e-6, 5);
@@ -173,7 +174,6 @@ fn a_pivot_that_rounding_makes_negative_is_told_and_pcg_in_lanes_answers() {
 
 #[test]
 fn the_certified_bounds_hold_the_error_of_the_answer() {
-    // Exact to rounding, so a single digit less than PCG's own tolerance can tell them apart.
     for data in chains() {
         let (mut wide, mut exact) = (build::scene::<f64>(&data), build::scene::<f64>(&data));
         let mut solver = lanes(&mut wide, Host::new());
@@ -193,7 +193,7 @@ fn the_certified_bounds_hold_the_error_of_the_answer() {
 fn too_little_workspace_is_an_error_that_says_how_much_is_needed_and_changes_nothing() {
     let data = generate::chain(100);
     let mut scene = build::scene::<f64>(&data);
-    let (own, (numbers, words)) = BandedLdl::needs_in_lanes_of(&mut scene, true);
+    let (own, (numbers, words)) = BandedLdl::needs_in_lanes_of(&mut scene, false);
     let before = build::bits(&scene);
     let mut step = |own: usize, numbers: usize, words: usize| {
         let lanes = Wide::new(vec![0.0; numbers], vec![0; words], Portable);
@@ -204,7 +204,7 @@ fn too_little_workspace_is_an_error_that_says_how_much_is_needed_and_changes_not
     };
     let short = StepError::Workspace { numbers: own, words: 0 };
     assert_eq!(step(own - 1, numbers, words), (Err(short), before.clone()));
-    let (result, bits) = step(own, numbers - 100, words);
+    let (result, bits) = step(own, numbers - 1, words);
     assert!(matches!(result, Err(StepError::Workspace { words: w, .. }) if w == words), "{result:?}");
     assert_eq!(bits, before);
     assert!(step(own, numbers, words).0.is_ok());
