@@ -8,6 +8,7 @@ mod batch;
 mod block_ilu;
 mod cables;
 mod catenary;
+mod chains_in_lanes;
 mod coincident;
 mod counters;
 mod damping;

@@ -8,6 +8,7 @@
 //!
 //! A block column is three columns of 3w numbers each, so that an update is a sum of three multiples of contiguous columns.
 //! Cost: 27 w² flops per row to factor, 36 w to solve. Memory: 9w numbers per row; pivots lie in the scene's own.
+//! [`crate::Wide`] around it solves a chain's islands in lanes ([`crate::wide::pieces`]), the others in this way.
 //! Exact up to rounding, which the certificate measures; see [`super::direct`] for refinement and what happens when a
 //! pivot fails.
 //!
@@ -28,6 +29,7 @@ use crate::solver::{Problem, Solver, Stop};
 use crate::sym3::Sym3;
 use crate::system::System;
 use crate::vec3::{self, Vec3};
+use crate::wide::{Dispatch, Preconditions, Wide, Widened, direct as in_lanes, pieces};
 
 /// Block-banded LDLᵀ in a workspace of the caller's: an array, a borrowed slice, a vector.
 ///
@@ -74,6 +76,24 @@ impl BandedLdl<()> {
         }
         most
     }
+
+    /// The same for [`crate::Wide`] around it, and behind that what [`crate::Wide`] needs itself, numbers and words: nothing
+    /// if no island is solved in lanes. That are those whose springs join particle i to i + 1, 64 or more places of them.
+    pub fn needs_in_lanes_of<M: Memory>(scene: &mut MassSpring<M>, damped: bool) -> (usize, (usize, usize)) {
+        let mut most = Self::needs_of(scene);
+        let lanes = Wide::needs_where(scene, damped, |layout| {
+            let takes = is_chain(layout.distances(), layout.places);
+            let needs = pieces::KEPT.saturating_mul(layout.places);
+            most = if takes && needs > most { needs } else { most };
+            takes
+        });
+        (most, lanes)
+    }
+}
+
+/// Is an island of this shape solved in lanes? Less than eight rows to a piece are not worth it.
+fn is_chain(distances: &[u32], places: usize) -> bool {
+    distances == [1] && places >= 64
 }
 
 impl<B> BandedLdl<B> {
@@ -113,6 +133,27 @@ impl<T: Real, B: AsMut<[T]>> Solver<T> for BandedLdl<B> {
         } else {
             direct::solve(problem, stop, &mut Band { width, columns: workspace })
         })
+    }
+}
+
+impl<T: Real, B: AsMut<[T]>> Preconditions<T> for BandedLdl<B> {
+    const READS_SPRINGS: bool = false;
+
+    fn takes(distances: &[u32], places: usize) -> bool {
+        is_chain(distances, places)
+    }
+
+    fn solve_in_lanes<F: Force<T>, D: Dispatch>(
+        &mut self,
+        lanes: Widened<'_, '_, T, F, D>,
+        x: &mut [Vec3<T>],
+        stop: &Stop<T>,
+    ) -> Result<Solve<T>, StepError> {
+        let places = lanes.layout.places;
+        let numbers = pieces::KEPT.saturating_mul(places);
+        let rows = pieces::cut(self.workspace.as_mut(), places);
+        let rows = rows.ok_or(StepError::Workspace { numbers, words: 0 })?;
+        Ok(in_lanes::solve(lanes, rows, x, stop))
     }
 }
 

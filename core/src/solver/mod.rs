@@ -12,7 +12,7 @@ pub(crate) mod jacobi;
 mod multigrid;
 mod panel;
 pub(crate) mod pcg;
-mod pivot;
+pub(crate) mod pivot;
 mod precision;
 mod sparse_ldl;
 mod ssor;

@@ -177,3 +177,25 @@ fn sizes<T: Real, N: Neighbours>(
         size.store(at, where_positive(m, sum));
     }
 }
+
+/// νᵢ = m̃ᵢ + Σ c (max(0, α) + |w|²), c = 2 if the other end is a row too, else 1: A ⪯ diag(ν). Of eight rows.
+#[inline(always)]
+pub(crate) fn row_sum<T: Real, N: Neighbours>(
+    neighbours: N,
+    Matrix { hessians, inertia, .. }: Matrix<'_, T>,
+    at: usize,
+) -> Eight<T> {
+    let mut sum = load(inertia, at);
+    for (h, ends) in neighbours.above(hessians, at).chain(neighbours.own(hessians, at)) {
+        let most = h.alpha.positive_then(h.alpha) + vec3::dot(h.w, h.w);
+        sum = sum + (most + neighbours.number(inertia, ends).positive_then(most));
+    }
+    sum
+}
+
+/// (|r| − δ)₊
+#[inline(always)]
+pub(crate) fn beyond<T: Real>(r: Vec3<Eight<T>>, error: Vec3<Eight<T>>) -> Vec3<Eight<T>> {
+    let [x, y, z] = vec3::sub(magnitude(r), error);
+    [x.positive_then(x), y.positive_then(y), z.positive_then(z)]
+}

@@ -22,6 +22,7 @@
 pub(crate) mod assembly;
 pub(crate) mod bound;
 pub(crate) mod diagonal;
+pub(crate) mod direct;
 pub(crate) mod dispatch;
 pub(crate) mod eight;
 pub(crate) mod gather;
@@ -29,6 +30,7 @@ pub(crate) mod island;
 pub(crate) mod layout;
 pub(crate) mod load;
 pub(crate) mod neighbours;
+pub(crate) mod pieces;
 pub(crate) mod product;
 pub(crate) mod slots;
 pub(crate) mod solve;
@@ -80,7 +82,7 @@ impl<N, W, D: Dispatch> Wide<N, W, D> {
         Self { numbers, words, dispatch, preconditioner: BlockJacobi, layout, found: false, damped: false }
     }
 
-    /// The same with another preconditioner: [`crate::Multigrid`].
+    /// The same with another preconditioner, [`crate::Multigrid`], or around a direct solver, [`crate::BandedLdl`].
     pub fn around<P>(self, preconditioner: P) -> Wide<N, W, D, P> {
         let Self { numbers, words, dispatch, layout, .. } = self;
         Wide { numbers, words, dispatch, preconditioner, layout, found: false, damped: false }
@@ -98,12 +100,23 @@ impl Wide<(), ()> {
     /// How many numbers and words a scene needs as its pins and springs are now, with damping along springs or without.
     /// Islands share the workspace.
     pub fn needs_of<M: Memory>(scene: &mut MassSpring<M>, damped: bool) -> (usize, usize) {
+        Self::needs_where(scene, damped, |_| true)
+    }
+
+    /// The same of the islands whose layout is as told.
+    pub(crate) fn needs_where<M: Memory>(
+        scene: &mut MassSpring<M>,
+        damped: bool,
+        mut takes: impl FnMut(&Layout) -> bool,
+    ) -> (usize, usize) {
         let parts = scene.parts();
         let state = parts.network.state();
         let (mut numbers, mut words) = (0, 0);
         for k in 0..parts.islands.count {
             let mut island = parts.islands.island(k, parts.work, &state);
-            if let Some(layout) = Layout::of(&mut island) {
+            if let Some(layout) = Layout::of(&mut island)
+                && takes(&layout)
+            {
                 numbers = core::cmp::max(numbers, work::needs(&layout, damped));
                 words = core::cmp::max(words, layout.words());
             }
@@ -130,9 +143,13 @@ impl<N, W, D: Dispatch, P> Wide<N, W, D, P> {
     where
         N: AsMut<[T]>,
         W: AsMut<[u32]>,
+        P: Preconditions<T>,
     {
         self.found = false;
         let Some(layout) = Layout::of(island) else { return Ok(false) };
+        if !P::takes(layout.distances(), layout.places) {
+            return Ok(false);
+        }
         let needs = (work::needs(&layout, damped), layout.words());
         let (numbers, words) = (self.numbers.as_mut(), self.words.as_mut());
         let (Some(numbers), Some(words)) = (numbers.get_mut(..needs.0), words.get_mut(..needs.1)) else {
@@ -180,11 +197,18 @@ impl<N, W, D: Dispatch, P> Wide<N, W, D, P> {
     }
 }
 
-/// Preconditioners that PCG in lanes can be built around.
+/// Preconditioners that PCG in lanes can be built around, and [`crate::BandedLdl`].
 pub trait Preconditions<T: Real>: Solver<T> {
     /// Does it read the springs' Hessians from the scene's own list?
     #[doc(hidden)]
     const READS_SPRINGS: bool;
+
+    /// Does it work on an island whose springs join particles at these distances, with so many places? If not, it answers
+    /// in its own way.
+    #[doc(hidden)]
+    fn takes(_distances: &[u32], _places: usize) -> bool {
+        true
+    }
 
     /// Solves an island that is laid out in lanes; the answer goes to `x`.
     ///

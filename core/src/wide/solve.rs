@@ -34,27 +34,7 @@ impl<T: Real, F: Force<T>, D: Dispatch> Widened<'_, '_, T, F, D> {
     /// D⁻¹ into the work.
     pub(crate) fn invert_diagonal(&mut self) {
         let Self { layout, way, front, work, system, dispatch, .. } = self;
-        let Front { inertia, hessians, .. } = front;
-        dispatch.run(
-            #[inline(always)]
-            || {
-                either!(*way, neighbours => {
-                    diagonal::blocks(neighbours, layout, hessians, inertia, &mut work.inverse);
-                });
-            },
-        );
-        each_point(system, way, |at, h| {
-            let added = Sym3::scalar(h.alpha).plus_outer(h.w).0;
-            for (plane, added) in work.inverse.iter_mut().zip(added) {
-                if let Some(entry) = plane.get_mut(at) {
-                    *entry += added;
-                }
-            }
-        });
-        dispatch.run(
-            #[inline(always)]
-            || diagonal::invert(layout, inertia, &mut work.inverse),
-        );
+        invert_diagonal(layout, way, front, work, system, *dispatch);
     }
 
     /// Solves it; the answer goes to `x`.
@@ -64,24 +44,67 @@ impl<T: Real, F: Force<T>, D: Dispatch> Widened<'_, '_, T, F, D> {
         x: &mut [Vec3<T>],
         stop: &Stop<T>,
     ) -> Solve<T> {
-        let Self { layout, way, front, work, system, dispatch, free } = self;
-        let mut lanes = Lanes { layout, way, front, work, system, dispatch, preconditioner };
+        let free = self.free;
+        let mut lanes = self.preconditioned(preconditioner);
         let solve = pcg::drive(&mut lanes, stop, free);
-        for (row, (x, particle)) in x.iter_mut().zip(lanes.system.matrix.rows.particle).enumerate() {
-            *x = lanes.work.x.row(way.place(row, *particle));
-        }
+        lanes.hand_out(x);
         solve
     }
 }
 
-/// The same with what preconditions it.
-struct Lanes<'s, 'a, T, F, D, P> {
-    layout: &'s Layout,
-    way: Way<'s>,
-    front: Front<'a, T>,
-    work: Iterates<'a, T>,
-    system: System<'s, T, F>,
+impl<'s, 'a, T: Real, F: Force<T>, D: Dispatch> Widened<'s, 'a, T, F, D> {
+    /// With what preconditions it.
+    pub(crate) fn preconditioned<P: Preconditioner<T>>(self, preconditioner: P) -> Lanes<'s, 'a, T, F, D, P> {
+        let Self { layout, way, front, work, system, dispatch, .. } = self;
+        Lanes { layout, way, front, work, system, dispatch, preconditioner }
+    }
+}
+
+impl<T: Real, F: Force<T>, D: Dispatch, P> Lanes<'_, '_, T, F, D, P> {
+    /// The answer to `x`, row by row.
+    pub(crate) fn hand_out(&self, x: &mut [Vec3<T>]) {
+        for (row, (x, particle)) in x.iter_mut().zip(self.system.matrix.rows.particle).enumerate() {
+            *x = self.work.x.row(self.way.place(row, *particle));
+        }
+    }
+}
+
+/// D⁻¹ into the work.
+pub(crate) fn invert_diagonal<T: Real, F: Force<T>, D: Dispatch>(
+    layout: &Layout,
+    way: &Way<'_>,
+    front: &Front<'_, T>,
+    work: &mut Iterates<'_, T>,
+    system: &System<'_, T, F>,
     dispatch: D,
+) {
+    let Front { inertia, hessians, .. } = front;
+    dispatch.run(
+        #[inline(always)]
+        || either!(*way, neighbours => diagonal::blocks(neighbours, layout, hessians, inertia, &mut work.inverse)),
+    );
+    each_point(system, way, |at, h| {
+        let added = Sym3::scalar(h.alpha).plus_outer(h.w).0;
+        for (plane, added) in work.inverse.iter_mut().zip(added) {
+            if let Some(entry) = plane.get_mut(at) {
+                *entry += added;
+            }
+        }
+    });
+    dispatch.run(
+        #[inline(always)]
+        || diagonal::invert(layout, inertia, &mut work.inverse),
+    );
+}
+
+/// The same with what preconditions it.
+pub(crate) struct Lanes<'s, 'a, T, F, D, P> {
+    pub(crate) layout: &'s Layout,
+    pub(crate) way: Way<'s>,
+    pub(crate) front: Front<'a, T>,
+    pub(crate) work: Iterates<'a, T>,
+    pub(crate) system: System<'s, T, F>,
+    pub(crate) dispatch: D,
     preconditioner: P,
 }
 

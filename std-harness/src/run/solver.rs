@@ -73,6 +73,9 @@ type Lanes<T> = Wide<Vec<T>, Vec<u32>, Host, Multigrid<Vec<f32>, Vec<u32>, Host>
 /// Sparse LDLᵀ with these numbers.
 type Sparse<N> = SparseLdl<Vec<u32>, N, Vec<u32>, Host>;
 
+/// The banded solver in lanes.
+type Chains<T> = Wide<Vec<T>, Vec<u32>, Host, BandedLdl<Vec<T>>>;
+
 /// Any of the solvers, decided when the program runs.
 #[derive(Debug, Clone)]
 pub enum AnySolver<T> {
@@ -86,8 +89,8 @@ pub enum AnySolver<T> {
     Wide(Box<WideJacobi<Vec<T>, Vec<u32>, Host>>, usize),
     /// [`Method::Multigrid`], in lanes where a scene has any, and how many bytes it has
     Multigrid(Box<Lanes<T>>, usize),
-    /// [`Method::Banded`], and how many numbers it has
-    Banded(BandedLdl<Vec<T>>, usize),
+    /// [`Method::Banded`], chains in lanes, and how many bytes it has
+    Banded(Box<Chains<T>>, usize),
     /// [`Method::Ldl`], and how many bytes it has
     Ldl(Box<Sparse<Vec<T>>>, usize),
     /// [`Method::Ldl32`], and how many bytes it has
@@ -123,8 +126,10 @@ impl<T: Real> AnySolver<T> {
                 Self::Multigrid(Box::new(lanes.around(multigrid)), bytes)
             }
             Method::Banded => {
-                let numbers = BandedLdl::needs_of(scene);
-                Self::Banded(BandedLdl::new(vec![T::ZERO; numbers]), numbers * size_of::<T>())
+                let (numbers, (lanes, places)) = BandedLdl::needs_in_lanes_of(scene, true);
+                let bytes = (numbers + lanes) * size_of::<T>() + places * size_of::<u32>();
+                let lanes = Wide::new(vec![T::ZERO; lanes], vec![0; places], Host::new());
+                Self::Banded(Box::new(lanes.around(BandedLdl::new(vec![T::ZERO; numbers]))), bytes)
             }
             Method::Ldl => {
                 let (solver, numbers, words) = sparse(scene, model, |n| vec![T::ZERO; n]);
@@ -164,7 +169,7 @@ impl<T: Real> Solver<T> for AnySolver<T> {
             Self::Multigrid(solver, _) => solver.as_mut().answer::<F, L>(to, stop),
             Self::Ssor(solver, _) => solver.answer::<F, L>(to, stop),
             Self::Ilu(solver, _) => solver.answer::<F, L>(to, stop),
-            Self::Banded(solver, _) => solver.answer::<F, L>(to, stop),
+            Self::Banded(solver, _) => solver.as_mut().answer::<F, L>(to, stop),
             Self::Ldl(solver, _) => solver.as_mut().answer::<F, L>(to, stop),
             Self::Ldl32(solver, _) => solver.as_mut().answer::<F, L>(to, stop),
         }
@@ -175,7 +180,7 @@ impl<T: Real> Solver<T> for AnySolver<T> {
             Self::Jacobi(solver) => Solver::<T>::begin(solver),
             Self::Wide(solver, _) => Solver::<T>::begin(solver.as_mut()),
             Self::Multigrid(solver, _) => Solver::<T>::begin(solver.as_mut()),
-            Self::Banded(solver, _) => Solver::<T>::begin(solver),
+            Self::Banded(solver, _) => Solver::<T>::begin(solver.as_mut()),
             Self::Ssor(solver, _) => Solver::<T>::begin(solver),
             Self::Ilu(solver, _) => Solver::<T>::begin(solver),
             Self::Ldl(solver, _) => Solver::<T>::begin(solver.as_mut()),
@@ -194,7 +199,7 @@ impl<T: Real> Solver<T> for AnySolver<T> {
             Self::Ilu(solver, _) => solver.solve(problem, stop),
             Self::Wide(solver, _) => solver.as_mut().solve(problem, stop),
             Self::Multigrid(solver, _) => solver.as_mut().solve(problem, stop),
-            Self::Banded(solver, _) => solver.solve(problem, stop),
+            Self::Banded(solver, _) => solver.as_mut().solve(problem, stop),
             Self::Ldl(solver, _) => solver.as_mut().solve(problem, stop),
             Self::Ldl32(solver, _) => solver.as_mut().solve(problem, stop),
         }

@@ -1,7 +1,7 @@
 //! Block-Jacobi PCG in lanes.
 
 use hooke::solver::Problem;
-use hooke::{Dispatch, Multigrid, Portable, Solve, Solver, StepError, Stop, WideJacobi};
+use hooke::{BandedLdl, Dispatch, Multigrid, Portable, Solve, Solver, StepError, Stop, WideJacobi};
 
 use crate::shared::*;
 
@@ -11,6 +11,8 @@ type Wide<'a, T> = WideJacobi<&'a mut [T], &'a mut [u32]>;
 type Grid<'a> = Multigrid<&'a mut [f32], &'a mut [u32]>;
 /// The solver around it.
 type Around<'a, T> = hooke::Wide<&'a mut [T], &'a mut [u32], Portable, Grid<'a>>;
+/// The banded solver in lanes.
+type Chains<'a, T> = hooke::Wide<&'a mut [T], &'a mut [u32], Portable, BandedLdl<&'a mut [T]>>;
 /// A step by it.
 type Step<'a, T, P> = hooke::LinearlyImplicitEuler<T, All<'a, T>, P>;
 
@@ -32,6 +34,14 @@ crate::entry_point::entry_points! {
         s: &mut S<T>, euler: &mut Step<'_, T, Around<'_, T>>,
     ) -> Stepped<T> {
         s.step(euler)
+    }
+    Preconditions::solve_in_lanes[banded](
+        s: &mut S<T>, euler: &mut Step<'_, T, Chains<'_, T>>,
+    ) -> Stepped<T> {
+        s.step(euler)
+    }
+    BandedLdl::needs_in_lanes_of(s: &mut S<T>, damped: bool) -> (usize, (usize, usize)) {
+        BandedLdl::needs_in_lanes_of(s, damped)
     }
     Dispatch::run(x: T) -> T { Portable.run(|| x + x) }
 }

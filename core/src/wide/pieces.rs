@@ -1,0 +1,478 @@
+//! Block LDLᵀ of a chain in eight pieces side by side: lane l owns a piece of L rows, all lanes eliminate theirs in step,
+//! and what is left are the eight last rows of the pieces.
+//!
+//! With couplings −C between rows k and k + 1, C = αI + wwᵀ, and −F between row k and the last row of the piece before
+//! (the *spike*; F₀ is the coupling itself):
+//!
+//! S = M̃ + H + R,  R₊ = H − C S⁻¹C,  F₊ = C S⁻¹F,  and the last row of the piece before loses FᵀS⁻¹F.
+//!
+//! H is what the spring to the next row adds to both diagonals: C, or where the next is a pin only that. What is no row has
+//! S = I, C = 0. The last rows are a chain of eight with full couplings, eliminated one after the other. To solve: y = S⁻¹u,
+//! u₊ = b₊ + C y inwards, Fᵀy to the last row before; the eight; x = y + S⁻¹(C x₊ + F x₀) outwards. Pivots and spikes are
+//! two sweeps: in one there are more numbers at hand than registers.
+//!
+//! The number of pieces is a part of the definition: eight on every machine, L = places/8. So bits are the same for every
+//! [`crate::Dispatch`]; they are not those of [`crate::solver::chain`], which has other pieces.
+//!
+//! Cost per row: 290 flops to factor with the way inwards, 50 for the way outwards; two divisions for eight rows, which wait
+//! for each other along a piece only. Memory: 22 numbers per place.
+//!
+//! Sources: Wang 1981 (partition method); Meurant 1992 (block tridiagonal matrices).
+
+use crate::hessian::Hessian;
+use crate::real::Real;
+use crate::solver::pivot;
+use crate::sym3::Sym3;
+use crate::vec3::{self, Vec3};
+use crate::wide::eight::{Eight, Planes, WIDTH, all, choose, load, store, where_positive};
+
+/// Numbers per place: S⁻¹, α and w of C, F by columns, y.
+pub(crate) const KEPT: usize = 6 + 4 + 9 + 3;
+/// Where S⁻¹ lies, before that m̃.
+pub(crate) const BLOCK: usize = 0;
+/// Where C lies.
+pub(crate) const COUPLING: usize = 6;
+/// Where F lies; before that R, and what else is on the diagonal.
+const SPIKE: usize = 10;
+/// Where a right side becomes an answer.
+pub(crate) const VECTOR: usize = 19;
+
+/// The k-th rows of the pieces.
+pub(crate) type Rows<T> = [[T; WIDTH]; KEPT];
+
+/// A 3×3 block by columns.
+type Block<V> = [Vec3<V>; 3];
+
+/// The eight last rows of the pieces, factored: S⁻¹, and the coupling to the last row before.
+pub(crate) struct Last<T> {
+    pivots: [Sym3<T>; WIDTH],
+    towards: [Block<T>; WIDTH],
+}
+
+#[inline(always)]
+fn take<T: Real, const N: usize>(rows: &Rows<T>, from: usize) -> [Eight<T>; N] {
+    let mut out = [all(T::ZERO); N];
+    for (k, out) in out.iter_mut().enumerate() {
+        *out = Eight(*rows.get(from + k).unwrap_or(T::ZEROS));
+    }
+    out
+}
+
+#[inline(always)]
+fn put<T: Real, const N: usize>(rows: &mut Rows<T>, from: usize, values: [Eight<T>; N]) {
+    for (k, value) in values.iter().enumerate() {
+        if let Some(place) = rows.get_mut(from + k) {
+            *place = value.0;
+        }
+    }
+}
+
+#[inline(always)]
+fn columns<V: Copy>([a, b, c, d, e, f, g, h, i]: [V; 9]) -> Block<V> {
+    [[a, b, c], [d, e, f], [g, h, i]]
+}
+
+#[inline(always)]
+fn flat<V: Copy>([[a, b, c], [d, e, f], [g, h, i]]: Block<V>) -> [V; 9] {
+    [a, b, c, d, e, f, g, h, i]
+}
+
+/// Cuts a workspace into rows for so many places; `None` if it is too small.
+pub(crate) fn cut<T: Real>(workspace: &mut [T], places: usize) -> Option<&mut [Rows<T>]> {
+    workspace.as_chunks_mut().0.as_chunks_mut().0.get_mut(..places / WIDTH)
+}
+
+/// Planes into the rows from `from` on: piece by piece side by side.
+#[inline(always)]
+pub(crate) fn spread<T: Real, const N: usize>(
+    planes: [&[T]; N],
+    pad: usize,
+    rows: &mut [Rows<T>],
+    from: usize,
+) {
+    let length = rows.len();
+    for first in blocks(length) {
+        let Some(rows) = rows.get_mut(first..).and_then(|rows| rows.first_chunk_mut::<WIDTH>()) else {
+            return;
+        };
+        for (c, plane) in planes.iter().enumerate() {
+            let at = pad + first;
+            for (l, piece) in (0..WIDTH).map(|l| (l, load(plane, at + l * length).0)) {
+                for (rows, value) in rows.iter_mut().zip(&piece) {
+                    if let Some(place) = rows.get_mut(from + c).and_then(|place| place.get_mut(l)) {
+                        *place = *value;
+                    }
+                }
+            }
+        }
+    }
+}
+
+/// Where blocks of eight rows begin; the last overlaps the one before it.
+#[inline(always)]
+fn blocks(length: usize) -> impl Iterator<Item = usize> {
+    let last = length.saturating_sub(WIDTH);
+    (0..length.div_ceil(WIDTH)).map(move |k| if k * WIDTH < last { k * WIDTH } else { last })
+}
+
+/// Each lane has what the lane before it had.
+#[inline(always)]
+fn later<T: Real>(Eight([a, b, c, d, e, f, g, _]): Eight<T>) -> Eight<T> {
+    Eight([T::ZERO, a, b, c, d, e, f, g])
+}
+
+/// Each lane has what the lane after it had.
+#[inline(always)]
+fn earlier<T: Real>(Eight([_, b, c, d, e, f, g, h]): Eight<T>) -> Eight<T> {
+    Eight([b, c, d, e, f, g, h, T::ZERO])
+}
+
+#[inline(always)]
+fn lane<T: Real>(of: Eight<T>, l: usize) -> T {
+    of.0.get(l).copied().unwrap_or(T::ZERO)
+}
+
+#[inline(always)]
+fn minus<T: Real>(a: Sym3<Eight<T>>, b: Sym3<Eight<T>>) -> Sym3<Eight<T>> {
+    let ([a0, a1, a2, a3, a4, a5], [b0, b1, b2, b3, b4, b5]) = (a.0, b.0);
+    Sym3([a0 - b0, a1 - b1, a2 - b2, a3 - b3, a4 - b4, a5 - b5])
+}
+
+/// w wᵀ + αI
+#[inline(always)]
+fn dense<T: Real>(h: &Hessian<Eight<T>>) -> Sym3<Eight<T>> {
+    let [x, y, z] = h.w;
+    Sym3([x * x + h.alpha, y * y + h.alpha, z * z + h.alpha, x * y, x * z, y * z])
+}
+
+/// S⁻¹ as in [`pivot`], and C S⁻¹ C; `sound` becomes 0 where a pivot is not positive.
+///
+/// S = [x cᵀ; c B], C's rows cₓ and Y, N = Y − (c/x) cₓᵀ (2×3): C S⁻¹ C = cₓcₓᵀ/x + Nᵀ Σ⁻¹ N, and all but the last product
+/// with 1/det Σ is done while that division runs.
+#[inline(always)]
+fn eliminate<T: Real>(s: Sym3<Eight<T>>, c: Sym3<Eight<T>>, sound: &mut Eight<T>) -> [Sym3<Eight<T>>; 2] {
+    let [xx, yy, zz, xy, xz, yz] = c.0;
+    let (c_x, c_y, c_z) = ([xx, xy, xz], [xy, yy, yz], [xz, yz, zz]);
+    let ([xx, yy, zz, xy, xz, yz], one) = (s.0, all(T::ONE));
+    let first = one / xx;
+    let (l_y, l_z) = (xy * first, xz * first);
+    let (s_yy, s_zz, s_yz) = (yy - l_y * xy, zz - l_z * xz, yz - l_y * xz);
+    let determinant = s_yy * s_zz - s_yz * s_yz;
+    let second = one / determinant;
+    let (n_y, n_z) = (vec3::add_scaled(c_y, -l_y, c_x), vec3::add_scaled(c_z, -l_z, c_x));
+    let a_y = vec3::sub(vec3::scale(s_zz, n_y), vec3::scale(s_yz, n_z));
+    let a_z = vec3::sub(vec3::scale(s_yy, n_z), vec3::scale(s_yz, n_y));
+    let f = vec3::scale(first, c_x);
+    let left = [
+        f[0] * c_x[0] + second * (n_y[0] * a_y[0] + n_z[0] * a_z[0]),
+        f[1] * c_x[1] + second * (n_y[1] * a_y[1] + n_z[1] * a_z[1]),
+        f[2] * c_x[2] + second * (n_y[2] * a_y[2] + n_z[2] * a_z[2]),
+        f[0] * c_x[1] + second * (n_y[0] * a_y[1] + n_z[0] * a_z[1]),
+        f[0] * c_x[2] + second * (n_y[0] * a_y[2] + n_z[0] * a_z[2]),
+        f[1] * c_x[2] + second * (n_y[1] * a_y[2] + n_z[1] * a_z[2]),
+    ];
+    let (i_yy, i_zz, i_yz) = (s_zz * second, s_yy * second, -(s_yz * second));
+    let (m_y, m_z) = (i_yy * l_y + i_yz * l_z, i_yz * l_y + i_zz * l_z);
+    let i_xx = first + (l_y * m_y + l_z * m_z);
+    *sound = determinant.zip(
+        xx.positive_then(s_yy.positive_then(*sound)),
+        #[inline(always)]
+        |d, sound| if d >= T::MIN_POSITIVE { sound } else { T::ZERO },
+    );
+    [Sym3([i_xx, i_yy, i_zz, -m_y, -m_z, i_yz]), Sym3(left)]
+}
+
+/// S of rows, I where there is none.
+#[inline(always)]
+fn diagonal<T: Real>(m: Eight<T>, h: &Sym3<Eight<T>>, before: &Sym3<Eight<T>>) -> Sym3<Eight<T>> {
+    let ([xx, yy, zz, xy, xz, yz], [rxx, ryy, rzz, rxy, rxz, ryz]) = (h.0, before.0);
+    let (one, zero) = (all(T::ONE), all(T::ZERO));
+    let across = [xy + rxy, xz + rxz, yz + ryz];
+    let [xy, xz, yz] = across;
+    let (xy, xz, yz) = (choose(m, xy, zero), choose(m, xz, zero), choose(m, yz, zero));
+    let along = [(m + xx) + rxx, (m + yy) + ryy, (m + zz) + rzz];
+    let [xx, yy, zz] = along;
+    Sym3([choose(m, xx, one), choose(m, yy, one), choose(m, zz, one), xy, xz, yz])
+}
+
+/// C v
+#[inline(always)]
+fn coupled<T: Real>(c: &Hessian<Eight<T>>, v: Vec3<Eight<T>>) -> Vec3<Eight<T>> {
+    vec3::add_scaled(vec3::scale(c.alpha, v), vec3::dot(c.w, v), c.w)
+}
+
+/// What lies before the first rows: what the lane before adds to the diagonal, and the first spikes. Shifts are kept away
+/// from the loops: a compiler that sees them takes its lanes apart there.
+pub(crate) struct Before<T> {
+    spike: Block<Eight<T>>,
+}
+
+/// What all rows but the last take from the last rows before: ΣFᵀS⁻¹F, and ΣFᵀy. Not `sound` where a pivot was not positive.
+pub(crate) struct Taken<T> {
+    sound: Eight<T>,
+    block: [Eight<T>; 6],
+    vector: Vec3<Eight<T>>,
+}
+
+#[inline(never)]
+pub(crate) fn before<T: Real>(rows: &mut [Rows<T>], points: bool) -> Option<Before<T>> {
+    let [first_mass] = take(rows.first()?, 0);
+    let last = rows.last_mut()?;
+    let [last_mass] = take(last, 0);
+    let h = spring(last);
+    let c = masked(earlier(first_mass).positive_then(last_mass), &h);
+    let Sym3([xx, yy, zz, xy, xz, yz]) = Sym3(dense(&c).0.map(later));
+    let spike = [[xx, xy, xz], [xy, yy, yz], [xz, yz, zz]];
+    let mut block = Sym3(dense(&h).0.map(later));
+    let first = rows.first_mut()?;
+    if points {
+        block = plus(block, Sym3(take(first, SPIKE)));
+    }
+    put(first, SPIKE, block.0);
+    Some(Before { spike })
+}
+
+/// Factors A, which comes as the masses of the rows in the first place of `rows`, α and w of their springs to the next in
+/// the coupling's, and with `points` what else is on the diagonal in the spike's. On the way y becomes what [`inwards`] makes
+/// of it. `None` if a pivot is not positive.
+#[inline(always)]
+pub(crate) fn factor<T: Real>(rows: &mut [Rows<T>], before: &Before<T>, points: bool) -> Option<Taken<T>> {
+    let (last, interior) = rows.split_last_mut()?;
+    let sound = eliminate_interior(interior, last, points)?;
+    let [last_mass] = take(last, 0);
+    let s = diagonal(last_mass, &dense(&spring(last)), &Sym3(take(last, SPIKE)));
+    put(last, 0, s.0);
+    let (spike, taken) = spikes(interior, before.spike, sound);
+    put(last, SPIKE, flat(spike));
+    Some(taken)
+}
+
+/// The spring to the next row.
+#[inline(always)]
+fn spring<T: Real>(rows: &Rows<T>) -> Hessian<Eight<T>> {
+    let [alpha, x, y, z] = take(rows, COUPLING);
+    Hessian { alpha, w: [x, y, z] }
+}
+
+#[inline(always)]
+fn masked<T: Real>(mark: Eight<T>, h: &Hessian<Eight<T>>) -> Hessian<Eight<T>> {
+    Hessian { alpha: mark.positive_then(h.alpha), w: where_positive(mark, h.w) }
+}
+
+#[inline(always)]
+fn plus<T: Real>(a: Sym3<Eight<T>>, b: Sym3<Eight<T>>) -> Sym3<Eight<T>> {
+    let ([a0, a1, a2, a3, a4, a5], [b0, b1, b2, b3, b4, b5]) = (a.0, b.0);
+    Sym3([a0 + b0, a1 + b1, a2 + b2, a3 + b3, a4 + b4, a5 + b5])
+}
+
+/// All but the last rows. Answers their R and C y.
+#[inline(always)]
+fn eliminate_interior<T: Real>(
+    interior: &mut [Rows<T>],
+    last: &mut Rows<T>,
+    points: bool,
+) -> Option<Eight<T>> {
+    let [mut m] = take(interior.first()?, 0);
+    let mut sound = all(T::ONE);
+    let mut rest = interior;
+    while let Some((rows, later)) = rest.split_first_mut() {
+        let after = later.first_mut().unwrap_or(&mut *last);
+        let [next] = take(after, 0);
+        let spring = spring(rows);
+        let block = dense(&spring);
+        let s = diagonal(m, &block, &Sym3(take(rows, SPIKE)));
+        let joined = next.positive_then(m);
+        let [a, b, c, d, e, f] = block.0;
+        let ([a, b, c], [d, e, f]) = (where_positive(joined, [a, b, c]), where_positive(joined, [d, e, f]));
+        let c = Sym3([a, b, c, d, e, f]);
+        let [inverse, left] = eliminate(s, c, &mut sound);
+        let mut left = minus(block, left);
+        if points {
+            left = plus(left, Sym3(take(after, SPIKE)));
+        }
+        put(after, SPIKE, left.0);
+        put(rows, 0, inverse.0);
+        let spring = masked(joined, &spring);
+        put(rows, COUPLING, [spring.alpha, spring.w[0], spring.w[1], spring.w[2]]);
+        let y = inverse.mul(take(rows, VECTOR));
+        put(rows, VECTOR, y);
+        put(after, VECTOR, vec3::add(take(after, VECTOR), coupled(&spring, y)));
+        (m, rest) = (next, later);
+    }
+    Some(sound)
+}
+
+/// The spikes of all but the last rows. Answers those of the last.
+#[inline(always)]
+fn spikes<T: Real>(
+    interior: &mut [Rows<T>],
+    spike: Block<Eight<T>>,
+    sound: Eight<T>,
+) -> (Block<Eight<T>>, Taken<T>) {
+    let [mut f0, mut f1, mut f2] = spike;
+    let [mut xx, mut yy, mut zz, mut xy, mut xz, mut yz] = [all(T::ZERO); 6];
+    let [mut t0, mut t1, mut t2] = [all(T::ZERO); 3];
+    for rows in interior {
+        let y = take(rows, VECTOR);
+        (t0, t1, t2) = (t0 + vec3::dot(f0, y), t1 + vec3::dot(f1, y), t2 + vec3::dot(f2, y));
+        put(rows, SPIKE, flat([f0, f1, f2]));
+        let (inverse, c) = (Sym3(take(rows, 0)), spring(rows));
+        let y = inverse.mul(f0);
+        (xx, xy, xz) = (xx + vec3::dot(f0, y), xy + vec3::dot(f1, y), xz + vec3::dot(f2, y));
+        f0 = coupled(&c, y);
+        let y = inverse.mul(f1);
+        (yy, yz) = (yy + vec3::dot(f1, y), yz + vec3::dot(f2, y));
+        f1 = coupled(&c, y);
+        let y = inverse.mul(f2);
+        zz = zz + vec3::dot(f2, y);
+        f2 = coupled(&c, y);
+    }
+    ([f0, f1, f2], Taken { sound, block: [xx, yy, zz, xy, xz, yz], vector: [t0, t1, t2] })
+}
+
+/// Nothing else on the diagonals.
+pub(crate) fn clear<T: Real>(rows: &mut [Rows<T>]) {
+    for rows in rows {
+        put(rows, SPIKE, [all(T::ZERO); 6]);
+    }
+}
+
+/// The diagonal of the row at this place += H.
+pub(crate) fn add_to_diagonal<T: Real>(rows: &mut [Rows<T>], place: usize, h: &Hessian<T>) {
+    let length = rows.len().max(1);
+    let (lane, added) = (place / length, Sym3::scalar(h.alpha).plus_outer(h.w).0);
+    let Some(rows) = rows.get_mut(place % length) else { return };
+    for (lanes, added) in rows.iter_mut().skip(SPIKE).zip(added) {
+        if let Some(entry) = lanes.get_mut(lane) {
+            *entry += added;
+        }
+    }
+}
+
+/// The last rows' u gains what the rows after them hand over.
+#[inline(never)]
+pub(crate) fn hand_over<T: Real>(rows: &mut [Rows<T>], taken: &Vec3<Eight<T>>) {
+    if let Some(last) = rows.last_mut() {
+        let u = vec3::add(take(last, VECTOR), taken.map(earlier));
+        put(last, VECTOR, u);
+    }
+}
+
+/// Factors the chain of the last rows: one row after the other.
+#[inline(never)]
+pub(crate) fn join<T: Real>(rows: &mut [Rows<T>], taken: &Taken<T>) -> Option<Last<T>> {
+    if taken.sound.any(|sound| !(sound > T::ZERO)) {
+        return None;
+    }
+    hand_over(rows, &taken.vector);
+    let last = rows.last()?;
+    // Lane l's last row also loses what lane l + 1 takes.
+    let s = minus(Sym3(take(last, 0)), Sym3(taken.block.map(earlier))).0;
+    let spike = columns(take(last, SPIKE));
+    let nothing = Sym3([T::ZERO; 6]);
+    let mut out = Last { pivots: [nothing; WIDTH], towards: [[[T::ZERO; 3]; 3]; WIDTH] };
+    let mut before = nothing;
+    for (l, (pivot, towards)) in out.pivots.iter_mut().zip(&mut out.towards).enumerate() {
+        let of = |x: Eight<T>| lane(x, l);
+        // E: rows of this, columns of the one before.
+        let e = spike.map(|column| column.map(of));
+        let rows = [0, 1, 2].map(|i| e.map(|column| column.get(i).copied().unwrap_or(T::ZERO)));
+        let solved = rows.map(|row| before.mul(row));
+        let [xx, yy, zz, xy, xz, yz] = s.map(of);
+        let [r0, r1, r2] = rows;
+        let [s0, s1, s2] = solved;
+        let s = Sym3([
+            xx - vec3::dot(r0, s0),
+            yy - vec3::dot(r1, s1),
+            zz - vec3::dot(r2, s2),
+            xy - vec3::dot(r0, s1),
+            xz - vec3::dot(r0, s2),
+            yz - vec3::dot(r1, s2),
+        ]);
+        before = pivot::inverse(s)?;
+        (*pivot, *towards) = (before, e);
+    }
+    Some(out)
+}
+
+/// y ← S⁻¹u in all but the last rows, u in these.
+#[inline(always)]
+pub(crate) fn inwards<T: Real>(rows: &mut [Rows<T>]) -> Vec3<Eight<T>> {
+    let zero = [all(T::ZERO); 3];
+    let (mut carried, mut taken) = (zero, zero);
+    let Some((last, interior)) = rows.split_last_mut() else { return zero };
+    for rows in interior {
+        let u = vec3::add(take(rows, VECTOR), carried);
+        let y = Sym3(take(rows, 0)).mul(u);
+        put(rows, VECTOR, y);
+        carried = coupled(&spring(rows), y);
+        let [f0, f1, f2] = columns(take(rows, SPIKE));
+        let [t0, t1, t2] = taken;
+        taken = [t0 + vec3::dot(f0, y), t1 + vec3::dot(f1, y), t2 + vec3::dot(f2, y)];
+    }
+    put(last, VECTOR, vec3::add(take(last, VECTOR), carried));
+    taken
+}
+
+/// y ← x, after [`inwards`] and [`Last::solve`].
+#[inline(always)]
+pub(crate) fn outwards<T: Real>(rows: &mut [Rows<T>]) {
+    let Some((last, interior)) = rows.split_last_mut() else { return };
+    let mut x = take(last, VECTOR);
+    let [b0, b1, b2] = x.map(later);
+    for rows in interior.iter_mut().rev() {
+        let [f0, f1, f2] = columns(take(rows, SPIKE));
+        let spiked = vec3::add_scaled(vec3::add_scaled(vec3::scale(b0, f0), b1, f1), b2, f2);
+        let carried = coupled(&spring(rows), x);
+        let moved = Sym3(take(rows, 0)).mul(vec3::add(spiked, carried));
+        x = vec3::add(take(rows, VECTOR), moved);
+        put(rows, VECTOR, x);
+    }
+}
+
+impl<T: Real> Last<T> {
+    /// The last rows' x from their u.
+    #[inline(never)]
+    pub(crate) fn solve(&self, rows: &mut [Rows<T>]) {
+        let Some(last) = rows.last_mut() else { return };
+        let u: Vec3<Eight<T>> = take(last, VECTOR);
+        let mut x = [[T::ZERO; 3]; WIDTH];
+        let mut before = [T::ZERO; 3];
+        for (l, ((x, pivot), [e0, e1, e2])) in x.iter_mut().zip(&self.pivots).zip(&self.towards).enumerate() {
+            let [a, b, c] = before;
+            let from = vec3::add_scaled(vec3::add_scaled(vec3::scale(a, *e0), b, *e1), c, *e2);
+            before = pivot.mul(vec3::add(u.map(|u| lane(u, l)), from));
+            *x = before;
+        }
+        let mut carried = [T::ZERO; 3];
+        for ((x, pivot), e) in x.iter_mut().zip(&self.pivots).zip(&self.towards).rev() {
+            *x = vec3::add(*x, pivot.mul(carried));
+            carried = e.map(|column| vec3::dot(column, *x));
+        }
+        for (l, x) in x.iter().enumerate() {
+            for (lanes, x) in last.iter_mut().skip(VECTOR).zip(x) {
+                if let Some(place) = lanes.get_mut(l) {
+                    *place = *x;
+                }
+            }
+        }
+    }
+}
+
+/// y of the rows into planes.
+#[inline(always)]
+pub(crate) fn put_back<T: Real>(rows: &[Rows<T>], to: &mut Planes<'_, T>, pad: usize) {
+    let length = rows.len();
+    for first in blocks(length) {
+        let Some(rows) = rows.get(first..).and_then(|rows| rows.first_chunk::<WIDTH>()) else { return };
+        for (c, plane) in to.0.iter_mut().enumerate() {
+            for l in 0..WIDTH {
+                let mut piece = [T::ZERO; WIDTH];
+                for (place, rows) in piece.iter_mut().zip(rows) {
+                    *place = rows.get(VECTOR + c).and_then(|lanes| lanes.get(l)).copied().unwrap_or(T::ZERO);
+                }
+                store(plane, pad + first + l * length, Eight(piece));
+            }
+        }
+    }
+}
