@@ -14,8 +14,8 @@
 use crate::parts::Matrix;
 use crate::real::Real;
 
-/// How many entries a column may be given that are zero, to lie in one panel with the next.
-const SLACK: usize = 2;
+/// Of so many entries of a panel one may be a zero.
+const SPARE: usize = 8;
 /// No such index.
 pub(crate) const NONE: u32 = u32::MAX;
 
@@ -315,20 +315,22 @@ impl Work<'_> {
         self.walk(row, |_, k, count, _| set(count, k, get(count, k) + 1));
     }
 
-    /// Does column k have the structure of the column before it? (To join columns that nearly do costs more in zeros than
-    /// longer panels give back: measured on cloths.)
-    fn continues(&self, k: usize) -> bool {
-        get(self.parent, k.saturating_sub(1)) == k
-            && get(self.count, k.saturating_sub(1)) + SLACK > get(self.count, k)
-    }
-
-    /// Visits the supernodes: (first column, end, rows).
+    /// Visits the supernodes: (first column, end, rows). A column joins the one before it, a child of its own in the tree, if
+    /// of the panel's entries no more than one in [`SPARE`] is then a zero: longer panels give that back (measured on cloths).
     fn each_supernode(&self, mut visit: impl FnMut(usize, usize, usize)) {
         let (mut first, columns) = (0, self.count.len());
-        for end in 1..=columns {
-            if end == columns || !self.continues(end) {
-                visit(first, end, end - first + get(self.count, end - 1).saturating_sub(1));
-                first = end;
+        let mut entries = 0;
+        for k in 0..columns {
+            let last = k + 1 == columns;
+            entries += get(self.count, k);
+            // The panel if the next column joins: a trapezium, and how many of it are entries of L.
+            let next = get(self.count, k + 1);
+            let (wide, long) = (k + 2 - first, k + 1 - first + next);
+            let all = wide * long - wide * (wide - 1) / 2;
+            let zeros = all.saturating_sub(entries + next);
+            if last || get(self.parent, k) != k + 1 || SPARE * zeros > all {
+                visit(first, k + 1, k - first + get(self.count, k));
+                (first, entries) = (k + 1, 0);
             }
         }
     }

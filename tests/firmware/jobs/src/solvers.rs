@@ -1,8 +1,8 @@
 //! The 8×8 cloth by each solver that is not the default, in a workspace of its own: every one has its golden bits.
 
 use hooke::{
-    BandedLdl, BlockIlu, Hookean, LinearlyImplicitEuler, MassSpring, Memory, Multigrid, Portable, Scene,
-    Single, Solver, SparseLdl, Ssor, WideJacobi,
+    BandedLdl, BlockIlu, Hookean, LinearlyImplicitEuler, MassSpring, Memory, Multigrid, Portable, Real,
+    Scene, Single, Solver, SparseLdl, Ssor, WideJacobi,
 };
 use static_cell::ConstStaticCell;
 
@@ -68,6 +68,84 @@ job!(WIDE_F64, f64, "wide", WideJacobi::new(zeros!(f64, NUMBERS), zeros!(u32, WO
 job!(MULTIGRID_F32, f32, "multigrid", Multigrid::new(zeros!(f32, GRID.0), zeros!(u32, GRID.1), Portable));
 job!(MULTIGRID_F64, f64, "multigrid", Multigrid::new(zeros!(f32, GRID.0), zeros!(u32, GRID.1), Portable));
 
+/// A rope long enough for lanes, factored in pieces; and a net without few distances, whose rows lie in slots.
+const ROPE: usize = 80;
+const CHAIN: usize = 40 * ROPE;
+const NET: usize = 64;
+
+macro_rules! lanes {
+    ($job:ident, $t:ident, $name:literal, $particles:expr, $springs:expr, $build:path, $wide:expr) => {
+        #[doc = concat!("The lanes ", $name, " in `", stringify!($t), "`.")]
+        pub const $job: Job = {
+            static SCENE: ConstStaticCell<Scene<$t, $particles, $springs, Hookean>> =
+                ConstStaticCell::new(Scene::new());
+            let start: fn(&mut Trace<'_>) -> Outcome = |trace| {
+                let (scene, mut solver) = (SCENE.take(), $wide);
+                $build(scene)?;
+                steps(scene, &mut solver, trace)?;
+                expect(solver.in_lanes(), "lanes")
+            };
+            Job { name: $name, precision: stringify!($t), start }
+        };
+    };
+}
+
+lanes!(
+    CHAIN_F32,
+    f32,
+    "chain",
+    ROPE,
+    { ROPE - 1 },
+    rope,
+    WideJacobi::new(zeros!(f32, NUMBERS), zeros!(u32, WORDS), Portable)
+        .around(BandedLdl::new(zeros!(f32, CHAIN)))
+);
+lanes!(
+    CHAIN_F64,
+    f64,
+    "chain",
+    ROPE,
+    { ROPE - 1 },
+    rope,
+    WideJacobi::new(zeros!(f64, NUMBERS), zeros!(u32, WORDS), Portable)
+        .around(BandedLdl::new(zeros!(f64, CHAIN)))
+);
+lanes!(
+    SLOTS_F32,
+    f32,
+    "slots",
+    NET,
+    { 3 * NET },
+    tangle,
+    WideJacobi::new(zeros!(f32, NUMBERS), zeros!(u32, WORDS), Portable)
+);
+lanes!(
+    SLOTS_F64,
+    f64,
+    "slots",
+    NET,
+    { 3 * NET },
+    tangle,
+    WideJacobi::new(zeros!(f64, NUMBERS), zeros!(u32, WORDS), Portable)
+);
+
+fn rope<M: Memory>(scene: &mut MassSpring<M>) -> Outcome {
+    scenes::hang(scene, ROPE)
+}
+
+/// A rope whose particles are also tied crosswise, at as many distances as there are.
+fn tangle<M: Memory>(scene: &mut MassSpring<M>) -> Outcome {
+    scenes::hang(scene, NET)?;
+    for i in 0..NET {
+        for other in [(5 * i + 11) % NET, (i * i + 7) % NET] {
+            if other > i + 1 {
+                scene.spring(i, other, M::Real::from_count(200))?;
+            }
+        }
+    }
+    Ok(())
+}
+
 /// An order that is not the particles' own.
 fn backwards() -> [u32; PARTICLES] {
     let mut order = [0; PARTICLES];
@@ -85,6 +163,14 @@ fn run<M: Memory, S: Solver<M::Real>>(
     scenes::cloth(scene, SIDE)?;
     scene.pin(0)?;
     scene.pin(SIDE - 1)?;
+    steps(scene, solver, trace)
+}
+
+fn steps<M: Memory, S: Solver<M::Real>>(
+    scene: &mut MassSpring<M>,
+    solver: S,
+    trace: &mut Trace<'_>,
+) -> Outcome {
     let mut euler = LinearlyImplicitEuler::new(dt()).gravity(gravity()).solver(solver);
     for _ in 0..6 {
         let report = scene.step(&mut euler)?;
