@@ -8,6 +8,7 @@ MassSpring::empty     # needs a growable owner of memory: a host's
 Snapshot::empty       # the same
 Growable::particles   # that owner's own
 Growable::springs     # that owner's own
+Preconditions::takes  # cannot be named outside; the steps by solvers in lanes call it
 LIST
 }
 
