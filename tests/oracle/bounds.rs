@@ -6,6 +6,7 @@ use hooke_tests::build::{self, Forces};
 use hooke_tests::data::{MotionData, SceneData};
 use hooke_tests::direct;
 use hooke_tests::generate::{self, Ingredients};
+use hooke_tests::lanes::wide;
 use hooke_tests::multigrid::multigrid;
 use hooke_tests::precise::{Factor, big, small};
 use hooke_tests::random::Random;
@@ -175,6 +176,12 @@ fn the_true_error_of_ssor_and_d_ilu_lies_between_the_bounds_in_f32() {
     met(&true_error_lies_between_the_bounds::<f32, _>("SSOR f32", 323, ssor));
     // On nets so small D-ILU is nearly exact: in f32 mostly rounding is left.
     met_by_direct(&true_error_lies_between_the_bounds::<f32, _>("D-ILU f32", 324, ilu));
+}
+
+#[test]
+fn the_true_error_in_lanes_lies_between_the_bounds() {
+    met(&true_error_lies_between_the_bounds::<f64, _>("lanes f64", 645, wide));
+    met(&true_error_lies_between_the_bounds::<f32, _>("lanes f32", 325, wide));
 }
 
 /// On nets so small all is the coarsest level, which f32 factors solve: in f64 some iterations are left to do, in f32 only

@@ -1,7 +1,9 @@
 //! One step against the dense solve, and against itself with the springs in another order: no further apart than the bounds
 //! and the stated rounding of assembly allow.
 
-use hooke::{BlockJacobi, Real, Solver};
+use std::cell::Cell;
+
+use hooke::{BlockJacobi, Real, Solver, WideJacobi};
 use hooke_harness::scene::Model;
 use hooke_harness::scene::renumber::Numbering;
 use hooke_tests::build::{self, Forces};
@@ -9,6 +11,7 @@ use hooke_tests::data::{MotionData, SceneData, distance};
 use hooke_tests::dense::Dense;
 use hooke_tests::direct;
 use hooke_tests::generate::{self, Ingredients};
+use hooke_tests::lanes::wide;
 use hooke_tests::multigrid::multigrid;
 use hooke_tests::random::Random;
 use hooke_tests::triangular::{ilu, ssor};
@@ -172,6 +175,19 @@ fn a_step_of_ssor_or_d_ilu_is_the_dense_solve_within_the_bound() {
     against_dense::<f32, _>(&[1e-1, 1e-3, 1e-4], allowed::U32, 18, ssor);
     against_dense::<f64, _>(&[1e-1, 1e-3, 1e-6, 1e-8], allowed::U64, 19, ilu);
     against_dense::<f32, _>(&[1e-1, 1e-3, 1e-4], allowed::U32, 20, ilu);
+}
+
+#[test]
+fn a_step_in_lanes_is_the_dense_solve_within_the_bound_on_nets_of_any_shape() {
+    let laid_out = Cell::new(0);
+    let counted = |data: &SceneData| {
+        let layout = WideJacobi::needs_of(&mut build::scene::<f64>(data), true).0 > 0;
+        laid_out.set(laid_out.get() + usize::from(layout));
+        wide(data)
+    };
+    against_dense::<f64, _>(&[1e-1, 1e-3, 1e-6, 1e-8], allowed::U64, 23, counted);
+    assert!(laid_out.get() > 60, "{} solves in lanes", laid_out.get());
+    against_dense::<f32, _>(&[1e-1, 1e-3, 1e-4], allowed::U32, 24, wide);
 }
 
 #[test]

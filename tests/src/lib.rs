@@ -13,6 +13,7 @@ pub mod dense;
 pub mod direct;
 pub mod envelope;
 pub mod generate;
+pub mod lanes;
 pub mod multigrid;
 pub mod precise;
 pub mod random;

@@ -100,7 +100,7 @@ impl<T: Real> Supernodes<'_, T> {
 #[inline(always)]
 fn take<T: Real>(x: &mut [T], [a, b, c]: [&[T]; 3], v: Vec3<T>) {
     for (((x, a), b), c) in x.iter_mut().zip(a).zip(b).zip(c) {
-        *x = *x - ((*a * v[0] + *b * v[1]) + *c * v[2]);
+        *x -= (*a * v[0] + *b * v[1]) + *c * v[2];
     }
 }
 

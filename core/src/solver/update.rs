@@ -134,7 +134,7 @@ fn less<T: Real, const N: usize>(
 #[inline(always)]
 fn less_one<T: Real, const N: usize>(mut y: [T; N], [a, b, c]: &Three<T, N>, l: &Vec3<T>) -> [T; N] {
     for (((y, a), b), c) in y.iter_mut().zip(a).zip(b).zip(c) {
-        *y = *y - vec3::dot([*a, *b, *c], *l);
+        *y -= vec3::dot([*a, *b, *c], *l);
     }
     y
 }
