@@ -54,10 +54,8 @@ pub use report::{Ending, IslandReport, Report, Solve};
 pub use scene::{Growable, MassSpring, Scene, SceneIn};
 pub use sleeping::{Awake, Rest, Sleep, Sleeping};
 pub use snapshot::Snapshot;
-pub use solver::{
-    BandedLdl, BlockJacobi, Jacobi, Multigrid, Numbers, Preconditioner, Single, Solver, SparseLdl, Stop,
-};
-pub use solver::{BlockIlu, Ssor};
+pub use solver::{BandedLdl, BlockJacobi, Jacobi, Multigrid, Preconditioner, Solver, SparseLdl, Stop};
+pub use solver::{BlockIlu, Numbers, Single, Ssor};
 pub use spring::{Spring, Stretched};
 pub use sym3::Sym3;
 pub use system::{Operator, System};

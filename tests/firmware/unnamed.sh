@@ -12,9 +12,11 @@ without_features() {
     sed -i -E '/^(pub )?(mod|use) (snapshot|reaction|energy|momentum|stiffness)\b/d' "$source/lib.rs"
     sed -i -E 's/^(pub use force::).*$/\1{Force, Gravity};/' "$source/lib.rs"
     sed -i -E '/^(pub )?(mod|use) (drag|damping|point_force|point_spring)\b/d' "$source/force/mod.rs"
-    rm "$source"/solver/{banded_ldl,chain,direct,elimination,panel,pivot,sparse_ldl,supernodes}.rs
-    sed -i -E '/^(pub )?(mod|use) (banded_ldl|chain|direct|elimination|panel|pivot|sparse_ldl|supernodes)\b/d' \
-        "$source/solver/mod.rs"
+    rm "$source"/solver/{banded_ldl,chain,direct,elimination,panel,pivot,precision,sparse_ldl,substitution,supernodes,update}.rs
+    sed -i -E '/^(pub(\(crate\))? )?(mod|use) (banded_ldl|chain|direct|elimination|panel|pivot|precision)\b/d' "$source/solver/mod.rs"
+    sed -i -E '/^(pub )?(mod|use) (sparse_ldl|substitution|supernodes|update)\b/d' "$source/solver/mod.rs"
+    rm "$source"/wide/{direct,pieces}.rs
+    sed -i -E '/^pub\(crate\) mod (direct|pieces)\b/d' "$source/wide/mod.rs"
     rm "$source"/solver/{block_ilu,eisenstat,ssor,triangle}.rs
     sed -i -E '/^(pub )?(mod|use) (block_ilu|eisenstat|ssor|triangle)\b/d' "$source/solver/mod.rs"
     sed -i -E '/^pub use solver::\{BlockIlu/d' "$source/lib.rs"
@@ -31,8 +33,8 @@ without_features() {
 # when it decides what to inline where, so the code of others can then differ by a few bytes either way.
 without_lanes() {
     local source=$1/core/src
-    rm -r "$source"/{wide,solver/multigrid}
-    sed -i -E '/^(pub )?(mod|use) (wide|multigrid)\b/d' "$source/lib.rs" "$source/solver/mod.rs"
+    rm -r "$source"/{wide,solver/multigrid,solver/around.rs}
+    sed -i -E '/^(pub )?(mod|use) (wide|multigrid|around)\b/d' "$source/lib.rs" "$source/solver/mod.rs"
     sed -i -E 's/^(pub use solver::).*$/\1{BlockJacobi, Jacobi, Preconditioner, Solver, Stop};/' "$source/lib.rs"
 }
 
