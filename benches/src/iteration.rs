@@ -97,7 +97,7 @@ mod tests {
         let all = methods::all();
         let mut scenario = testing::moving("cloth:16");
         let cloth = iterations(&mut scenario, &all, &[level; 4]);
-        assert_eq!(cloth.len(), all.len() - 2, "the two direct solvers do not iterate");
+        assert_eq!(cloth.len(), all.len() - 3, "those with exact factors, or nearly exact, hardly iterate");
         assert!(cloth.iter().all(|iteration| iteration.time.is_some_and(|ns| ns > 0.0)), "{cloth:?}");
         // One free particle: exact after one iteration.
         let pair = iterations(&mut testing::moving("chain:2"), &all, &[level; 4]);

@@ -23,9 +23,9 @@ pub(crate) fn name(method: Method) -> &'static str {
     }
 }
 
-/// Does it stop at a tolerance?
+/// Does it iterate more than a few times, so that an iteration can be told from the rest of a step?
 pub(crate) fn iterates(method: Method) -> bool {
-    !matches!(method, Method::Banded | Method::Ldl)
+    !matches!(method, Method::Banded | Method::Ldl | Method::Ldl32)
 }
 
 /// The methods of these names; `usual` if there are none.
