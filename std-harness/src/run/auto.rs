@@ -53,13 +53,15 @@ pub struct Weights {
     pub band: [f64; 2],
     /// Sparse LDLᵀ: ns per row and spring, per block of the factor, and per block product.
     pub ldl: [f64; 3],
-    /// The same in f32.
+    /// The same in f32; not taken yet.
     pub ldl32: [f64; 3],
 }
 
 /// Taken by the command above on one core of an AMD EPYC with AVX-512. On the 13 scenes of its grid that keep their numbering,
 /// 2 steps and 3 tolerances, auto takes the fastest solver in 64 of 78 cases, at worst one that takes 1.33 times as long, and
 /// 1.02 times on average. `loose` is the same command's on two tetrahedral meshes instead: a shuffled grid flatters multigrid.
+/// Taken before sparse factors ran in tiles and chains in lanes, so `ldl`, `chain` are dearer here than they are; `ldl32` has
+/// `ldl`'s, and is taken by name only.
 pub const WEIGHTS: Weights = Weights {
     jacobi: Iterative { iterations: 0.314, setup: 43.68, iteration: 4.98 },
     wide: Iterative { iterations: 0.319, setup: 50.21, iteration: 2.31 },
