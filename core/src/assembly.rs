@@ -5,9 +5,9 @@
 //!
 //! A Δ = b,  b = h f − θh D q̇ − Σ_j E_jᵀ H_j (Δq̇)_j,
 //!
-//! H_j scaled and clamped as in A ("K̃ on both sides": the equation that is solved is the lecture's with K̃ for K). One
-//! root for l and one for w per spring, one pass over the springs; where a node is not certified the springs that meet it
-//! are looked at again, and b takes the change of their H.
+//! H_j scaled and clamped as in A ("K̃ on both sides": the equation that is solved is the lecture's with K̃ for K). What
+//! other methods take from H instead is their [`Side`]. One root for l and one for w per spring, one pass over the springs;
+//! where a node is not certified the springs that meet it are looked at again, and b takes the change of their H.
 //!
 //! Source: the mass-spring lecture (assembly, linearly-implicit integration); Baraff & Witkin 1998, §3.
 
@@ -24,6 +24,44 @@ use crate::selection::Ends;
 use crate::spring::{Spring, Stretched};
 use crate::vec3::{self, Vec3};
 
+/// What of the Hessians goes to the right side of a method's system, b = h f − hD q̇ − this.
+pub(crate) trait Side<T: Real> {
+    /// Does b hold the H that A has, clamped with it, or the true one?
+    const CLAMPED: bool;
+    /// Is [`Side::turning`] anything but 0?
+    const TURNS: bool = false;
+    /// Of one spring, from H and Δq̇.
+    fn of(&self, hessian: &Hessian<T>, speed: Vec3<T>) -> Vec3<T>;
+    /// What the damping force −c(u·Δq̇)u of a spring changes by because the spring turns, times −θh².
+    #[inline(always)]
+    fn turning(&self, damping: T, stretched: Stretched<T>, speed: Vec3<T>) -> Vec3<T> {
+        let _ = (damping, stretched, speed);
+        [T::ZERO; 3]
+    }
+}
+
+/// H Δq̇ with A's H: the lecture's method, and a stage of a Rosenbrock method.
+pub(crate) struct Same;
+
+impl<T: Real> Side<T> for Same {
+    const CLAMPED: bool = true;
+    #[inline(always)]
+    fn of(&self, hessian: &Hessian<T>, speed: Vec3<T>) -> Vec3<T> {
+        hessian.mul(speed)
+    }
+}
+
+/// Nothing: b is the force alone, for a method whose unknown is no change along H.
+pub(crate) struct Nothing;
+
+impl<T: Real> Side<T> for Nothing {
+    const CLAMPED: bool = false;
+    #[inline(always)]
+    fn of(&self, _: &Hessian<T>, _: Vec3<T>) -> Vec3<T> {
+        [T::ZERO; 3]
+    }
+}
+
 /// What assembling found.
 #[derive(Debug, Clone, Copy)]
 pub(crate) struct Assembled {
@@ -37,7 +75,7 @@ pub(crate) struct Assembled {
     pub(crate) free: bool,
 }
 
-/// M + θhD, and b and y without springs, for all islands at once: b = h f − θhD q̇ with the forces that are not the
+/// M + θhD, and b and y without springs, for all islands at once: b = h f − hD q̇ with the forces that are not the
 /// springs'. Each force is asked once a step, however many islands there are. Rows that a point spring holds are marked
 /// in y.
 #[inline(never)] // As the passes below: frames of their own keep the stack shallow.
@@ -48,25 +86,49 @@ pub(crate) fn prepare<M: Memory<Real = T>, T: Real, F: Force<T>>(
     h: T,
     scaling: Scaling<T>,
 ) {
+    prepare_rows(rows, [&mut work.b, &mut work.y], [&mut work.inertia, &mut work.mu], forces, h, scaling);
+}
+
+/// The same for one island.
+#[inline(never)]
+pub(crate) fn prepare_island<T: Real, F: Force<T>>(
+    island: &mut IslandParts<'_, T>,
+    forces: &F,
+    h: T,
+    scaling: Scaling<T>,
+) {
+    let IslandParts { matrix, vectors, .. } = island;
+    prepare_rows(&matrix.rows, [vectors.b, vectors.y], [matrix.inertia, vectors.mu], forces, h, scaling);
+}
+
+#[inline(always)]
+fn prepare_rows<T: Real, F: Force<T>>(
+    rows: &Rows<'_, T>,
+    [b, y]: [&mut [Vec3<T>]; 2],
+    [inertia, mu]: [&mut [T]; 2],
+    forces: &F,
+    h: T,
+    scaling: Scaling<T>,
+) {
     let mass = |i: usize| rows.state.mass.get(i).copied().unwrap_or(T::ONE);
-    let lists = work.b.iter_mut().zip(work.inertia.iter_mut()).zip(work.mu.iter_mut()).zip(work.y.iter_mut());
+    let lists = b.iter_mut().zip(inertia.iter_mut()).zip(mu.iter_mut()).zip(y.iter_mut());
     for ((((b, inertia), mu), y), i) in lists.zip(rows.particles()) {
         *inertia = if F::DRAGS { mass(i) + scaling.damping * forces.drag(i, mass(i)) } else { mass(i) };
         *b = [T::ZERO; 3];
         *y = [T::ZERO; 3];
         *mu = T::ZERO;
     }
-    forces.add(rows, &mut work.b);
-    for (b, i) in work.b.iter_mut().zip(rows.particles()) {
+    forces.add(rows, b);
+    for (b, i) in b.iter_mut().zip(rows.particles()) {
         *b = vec3::scale(h, *b);
         if F::DRAGS {
             let v = rows.state.velocity.get(i).copied().unwrap_or([T::ZERO; 3]);
-            *b = vec3::add_scaled(*b, -(scaling.damping * forces.drag(i, mass(i))), v);
+            *b = vec3::add_scaled(*b, -(h * forces.drag(i, mass(i))), v);
         }
     }
     if F::ANCHORS {
         forces.hessians(rows, &mut |row, _| {
-            if let Some(mark) = work.y.get_mut(row) {
+            if let Some(mark) = y.get_mut(row) {
                 *mark = [T::ONE; 3];
             }
         });
@@ -75,19 +137,20 @@ pub(crate) fn prepare<M: Memory<Real = T>, T: Real, F: Force<T>>(
 
 /// Assembles A, μ and b of an island for a method with matrix M + θhD − sK, after [`prepare`].
 #[inline(never)]
-pub(crate) fn assemble<T: Real, F: Force<T>, L: Law>(
+pub(crate) fn assemble<T: Real, F: Force<T>, L: Law, S: Side<T>>(
     island: &mut IslandParts<'_, T>,
     forces: &mut F,
     h: T,
     scaling: Scaling<T>,
+    side: &S,
 ) -> Result<Assembled, StepError> {
     let points = F::ANCHORS && island.vectors.y.iter().any(|mark| mark[0] != T::ZERO);
-    let mut replaced = linearize::<T, F, L>(island, forces, h, scaling);
+    let mut replaced = linearize::<T, F, L, S>(island, forces, h, scaling, side);
     if F::ANCHORS && points {
-        replaced += linearize_points(island, forces, scaling);
+        replaced += linearize_points(island, forces, scaling, side);
     }
     let certified = certify(island.matrix.inertia, island.vectors.mu);
-    let clamped = if certified { 0 } else { project(island, forces, scaling, points)? };
+    let clamped = if certified { 0 } else { project(island, forces, scaling, points, side)? };
     let free = island.anchors == 0 && !points;
     Ok(Assembled { clamped: replaced + clamped, certified: certified && replaced == 0, points, free })
 }
@@ -136,11 +199,12 @@ impl<T: Real> Loaded<T> {
 /// The springs: their Hessians, what compressed ones charge μ with, and h f − H Δq̇ into b. Answers how many Hessians are
 /// replacements.
 #[inline(never)]
-fn linearize<T: Real, F: Force<T>, L: Law>(
+fn linearize<T: Real, F: Force<T>, L: Law, S: Side<T>>(
     island: &mut IslandParts<'_, T>,
     forces: &F,
     h: T,
     scaling: Scaling<T>,
+    side: &S,
 ) -> u32 {
     let mut replaced = 0;
     let (own, other, spring) = (island.matrix.own, island.matrix.other, island.spring);
@@ -156,8 +220,11 @@ fn linearize<T: Real, F: Force<T>, L: Law>(
             let loaded = Loaded::new::<F, L>(&island.matrix.rows, forces, *j as usize, delta);
             let hessian = loaded.hessian(scaling);
             replaced += u32::from(loaded.replaced());
-            let product = hessian.mul(vec3::sub(near.velocity, far.velocity));
-            let sum = vec3::sub(vec3::scale(h, loaded.force()), product);
+            let speed = vec3::sub(near.velocity, far.velocity);
+            let mut sum = vec3::sub(vec3::scale(h, loaded.force()), side.of(&hessian, speed));
+            if S::TURNS && F::DAMPS && !loaded.slack {
+                sum = vec3::add(sum, side.turning(loaded.damping, loaded.stretched, speed));
+            }
             if let Some(place) = island.matrix.hessian.get_mut(edge) {
                 *place = hessian.pack();
             }
@@ -180,20 +247,26 @@ fn linearize_points<T: Real, F: Force<T>>(
     island: &mut IslandParts<'_, T>,
     forces: &mut F,
     scaling: Scaling<T>,
+    side: &impl Side<T>,
 ) -> u32 {
     let replaced = forces.linearize(&island.matrix.rows, scaling);
-    add_points(island, forces, -T::ONE);
+    add_points(island, forces, -T::ONE, side);
     charge_points(island, forces);
     replaced
 }
 
-/// b += sign · Σ H q̇ over point springs.
-fn add_points<T: Real, F: Force<T>>(island: &mut IslandParts<'_, T>, forces: &F, sign: T) {
+/// b += sign · Σ H q̇ over point springs, as the side takes it.
+fn add_points<T: Real, F: Force<T>>(
+    island: &mut IslandParts<'_, T>,
+    forces: &F,
+    sign: T,
+    side: &impl Side<T>,
+) {
     let rows = island.matrix.rows;
     forces.hessians(&rows, &mut |row, hessian| {
         let v = island.end(row).velocity;
         if let Some(b) = island.vectors.b.get_mut(row) {
-            *b = vec3::add_scaled(*b, sign, hessian.mul(v));
+            *b = vec3::add_scaled(*b, sign, side.of(&hessian, v));
         }
     });
 }
@@ -207,11 +280,12 @@ fn charge_points<T: Real, F: Force<T>>(island: &mut IslandParts<'_, T>, forces: 
 /// fails then is no spring's doing: a force of the caller's own with a negative drag or Hessian.
 #[cold]
 #[inline(never)]
-fn project<T: Real, F: Force<T>>(
+fn project<T: Real, F: Force<T>, S: Side<T>>(
     island: &mut IslandParts<'_, T>,
     forces: &mut F,
     scaling: Scaling<T>,
     points: bool,
+    side: &S,
 ) -> Result<u32, StepError> {
     let mut clamped = 0;
     each_spring(island, |island, row, other, edge| {
@@ -229,19 +303,25 @@ fn project<T: Real, F: Force<T>>(
         let damping = if F::DAMPS { forces.damping(*j as usize) } else { T::ZERO };
         let spring = island.matrix.rows.state.spring(*j as usize);
         let new = Hessian::clamped(spring, Stretched::new(delta), damping, scaling);
-        let speed = vec3::sub(near.velocity, far.velocity);
-        let change = vec3::sub(old.mul(speed), new.mul(speed));
-        scatter(row, other, change, island.vectors.b);
+        if S::CLAMPED {
+            let speed = vec3::sub(near.velocity, far.velocity);
+            let change = vec3::sub(side.of(&old, speed), side.of(&new, speed));
+            scatter(row, other, change, island.vectors.b);
+        }
         if let Some(place) = island.matrix.hessian.get_mut(edge) {
             *place = new.pack();
         }
         clamped += 1;
     });
     if F::ANCHORS && points {
-        add_points(island, forces, T::ONE);
+        if S::CLAMPED {
+            add_points(island, forces, T::ONE, side);
+        }
         let mu = &island.vectors.mu;
         clamped += forces.clamp(&island.matrix.rows, scaling, |row| fails(mu, row));
-        add_points(island, forces, -T::ONE);
+        if S::CLAMPED {
+            add_points(island, forces, -T::ONE, side);
+        }
     }
     island.vectors.mu.fill(T::ZERO);
     each_spring(island, |island, row, other, edge| {

@@ -61,7 +61,14 @@ pub enum StepError {
     /// The step would give this particle, or one of the island that begins with it, an infinite or NaN position or
     /// velocity, or no finite error bound.
     NotFinite(usize),
-    /// A solver's workspace is too small: it needs so many numbers and words, or more where other islands are
+    /// dt is beyond the limit of an explicit method, which this particle sets.
+    StepLimit(usize),
+    /// The equations of the step were not solved: Newton's iterations found no way on, or there were too few of them. The
+    /// particle begins the island.
+    NotConverged(usize),
+    /// No step short enough for the accuracy that is asked for could be accepted.
+    Accuracy,
+    /// A workspace is too small: it needs so many numbers and words, or more where other islands are
     /// larger still.
     Workspace {
         /// How many numbers.
@@ -110,8 +117,17 @@ impl fmt::Display for StepError {
             Self::NotFinite(i) => {
                 write!(f, "particle {i}, or its island, would leave the range of the numbers")
             }
+            Self::StepLimit(i) => {
+                write!(f, "dt is beyond the limit of an explicit method, which particle {i} sets")
+            }
+            Self::NotConverged(i) => {
+                write!(f, "Newton's iterations did not converge on the island of particle {i}: take a shorter step")
+            }
+            Self::Accuracy => {
+                write!(f, "no step is short enough for this accuracy: ask for less, or for a higher precision")
+            }
             Self::Workspace { numbers, words } => {
-                write!(f, "the solver's workspace is too small: give it {numbers} numbers and {words} words")
+                write!(f, "the workspace is too small: give it {numbers} numbers and {words} words")
             }
         }
     }

@@ -120,6 +120,27 @@ impl<T: crate::Real> Report<T> {
         self.fallbacks += u32::from(island.solve.fallback);
     }
 
+    /// One more island of the step, shown to `watch`.
+    pub(crate) fn island(
+        &mut self,
+        island: &crate::parts::IslandParts<'_, T>,
+        clamped: u32,
+        certified: bool,
+        solve: Solve<T>,
+        watch: &mut impl FnMut(&IslandReport<T>),
+    ) -> Result<(), crate::StepError> {
+        let rows = island.matrix.rows.particle;
+        let first_particle = rows.first().map_or(0, |i| *i as usize);
+        if !solve.upper.is_finite() {
+            return Err(crate::StepError::NotFinite(first_particle));
+        }
+        let particles = rows.len();
+        let island = IslandReport { first_particle, particles, clamped, certified, asleep: false, solve };
+        self.add(&island);
+        watch(&island);
+        Ok(())
+    }
+
     /// Did no island need a projection pass?
     pub fn is_certified(&self) -> bool {
         self.certified == self.islands

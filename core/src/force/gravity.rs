@@ -24,6 +24,13 @@ impl<T: Real> Force<T> for Gravity<T> {
         }
     }
 
+    fn potential(&self, rows: &Rows<'_, T>) -> T {
+        rows.particles().fold(T::ZERO, |energy, i| {
+            let (m, x) = (rows.state.mass.get(i), rows.state.position.get(i));
+            energy - m.map_or(T::ZERO, |m| *m) * x.map_or(T::ZERO, |x| vec3::dot(self.0, *x))
+        })
+    }
+
     fn potential_energy(&self, state: State<'_, T>) -> T {
         let mut energy = T::ZERO;
         for (m, x) in state.mass.iter().zip(state.position) {

@@ -108,6 +108,13 @@ pub trait Force<T: Real> {
         let _ = (rows, visit);
     }
 
+    /// V of the force on these rows, J, by which [`crate::Newton`] searches: −∂V/∂q is what [`Force::add`] adds. A force that
+    /// is constant over a step has −fᵀq. 0 unless said; then a step of a force that does add something may not converge.
+    fn potential(&self, rows: &Rows<'_, T>) -> T {
+        let _ = rows;
+        T::ZERO
+    }
+
     /// Potential energy of the force at a state, J; 0 for forces that have none.
     fn potential_energy(&self, state: State<'_, T>) -> T {
         let _ = state;
@@ -166,6 +173,9 @@ impl<T: Real, F: Force<T>, G: Force<T>> Force<T> for (F, G) {
         self.0.hessians(rows, visit);
         self.1.hessians(rows, visit);
     }
+    fn potential(&self, rows: &Rows<'_, T>) -> T {
+        self.0.potential(rows) + self.1.potential(rows)
+    }
     fn potential_energy(&self, state: State<'_, T>) -> T {
         self.0.potential_energy(state) + self.1.potential_energy(state)
     }
@@ -201,6 +211,9 @@ impl<T: Real, F: Force<T>> Force<T> for &mut [F] {
         for force in self.iter() {
             force.hessians(rows, visit);
         }
+    }
+    fn potential(&self, rows: &Rows<'_, T>) -> T {
+        self.iter().fold(T::ZERO, |sum, force| sum + force.potential(rows))
     }
     fn potential_energy(&self, state: State<'_, T>) -> T {
         self.iter().fold(T::ZERO, |sum, force| sum + force.potential_energy(state))

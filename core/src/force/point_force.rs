@@ -28,4 +28,8 @@ impl<T: Real> Force<T> for PointForce<T> {
             *f = vec3::add(*f, self.force);
         }
     }
+    fn potential(&self, rows: &Rows<'_, T>) -> T {
+        let here = rows.row(self.particle).and_then(|_| rows.state.position.get(self.particle));
+        here.map_or(T::ZERO, |x| -vec3::dot(self.force, *x))
+    }
 }

@@ -101,6 +101,13 @@ impl<T: Real> Force<T> for PointSpring<T> {
         }
     }
 
+    fn potential(&self, rows: &Rows<'_, T>) -> T {
+        match rows.row(self.particle).and_then(|_| self.stretched(rows.state)) {
+            Some(stretched) => self.spring.potential_energy(stretched.length),
+            None => T::ZERO,
+        }
+    }
+
     fn potential_energy(&self, state: State<'_, T>) -> T {
         match self.stretched(&state) {
             Some(stretched) => self.spring.potential_energy(stretched.length),

@@ -124,7 +124,7 @@ pub(crate) fn solve<T: Real, F: Force<T>, D: Factors<T>>(
 }
 
 /// μ → 1/μ
-fn invert<T: Real>(mu: &mut [T]) {
+pub(crate) fn invert<T: Real>(mu: &mut [T]) {
     for mu in mu.iter_mut() {
         *mu = T::ONE / *mu;
     }

@@ -30,7 +30,7 @@ pub use precision::{Numbers, Single};
 pub use sparse_ldl::SparseLdl;
 pub use ssor::Ssor;
 
-use crate::assembly::{Assembled, assemble};
+use crate::assembly::{Assembled, Same, assemble};
 use crate::error::StepError;
 use crate::force::Force;
 use crate::hessian::Scaling;
@@ -84,7 +84,7 @@ pub trait Solver<T: Real> {
         stop: &Stop<T>,
     ) -> Result<Answer<T>, StepError> {
         let Island { island, forces, h, scaling } = to;
-        let Assembled { clamped, certified, points, free } = assemble::<T, F, L>(island, forces, h, scaling)?;
+        let Assembled { clamped, certified, points, free } = assemble::<T, F, L, _>(island, forces, h, scaling, &Same)?;
         let IslandParts { matrix, vectors, block, .. } = island;
         let system = System { matrix, forces: &*forces, points };
         let solve = self.solve(Problem { system, vectors, block, free }, stop)?;
@@ -100,6 +100,20 @@ pub trait Solver<T: Real> {
         problem: Problem<'_, '_, T, F>,
         stop: &Stop<T>,
     ) -> Result<Solve<T>, StepError>;
+
+    /// Solves with the matrix of the last [`Solver::solve`] and another right side: 1/μ is then in place of μ. A solver
+    /// that keeps what it has made of the matrix uses it; the others make it anew.
+    ///
+    /// # Errors
+    /// As [`Solver::solve`].
+    fn again<F: Force<T>>(
+        &mut self,
+        problem: Problem<'_, '_, T, F>,
+        stop: &Stop<T>,
+    ) -> Result<Solve<T>, StepError> {
+        direct::invert(problem.vectors.mu);
+        self.solve(problem, stop)
+    }
 }
 
 /// A solver that outlives the integrator which uses it: what it keeps between steps stays with it.
@@ -123,5 +137,13 @@ impl<T: Real, S: Solver<T>> Solver<T> for &mut S {
         stop: &Stop<T>,
     ) -> Result<Solve<T>, StepError> {
         (**self).solve(problem, stop)
+    }
+
+    fn again<F: Force<T>>(
+        &mut self,
+        problem: Problem<'_, '_, T, F>,
+        stop: &Stop<T>,
+    ) -> Result<Solve<T>, StepError> {
+        (**self).again(problem, stop)
     }
 }

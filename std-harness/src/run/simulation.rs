@@ -222,7 +222,9 @@ fn in_users_ids(error: StepError, numbering: Option<&Numbering>) -> StepError {
         Motion(i) => Motion(particle(i)),
         NotCertified(i) => NotCertified(particle(i)),
         NotFinite(i) => NotFinite(particle(i)),
+        StepLimit(i) => StepLimit(particle(i)),
+        NotConverged(i) => NotConverged(particle(i)),
         Damping(j) => Damping(numbering.users_spring(j)),
-        TimeStep | Tolerance | Field | Workspace { .. } => error,
+        TimeStep | Tolerance | Field | Accuracy | Workspace { .. } => error,
     }
 }

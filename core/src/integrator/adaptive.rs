@@ -1,0 +1,205 @@
+//! Error control: steps as long as an accuracy allows.
+//!
+//! A step of an [`Embedded`] method is taken if the energy E of its estimated error is at most J; if not, it is made anew,
+//! shorter. The next step follows a PI controller, with J/E to powers that are made of square roots only:
+//!
+//! h⁺ = 0.9 h (J/E)^α (J/E₋)^−β, α = 3/16, β = 1/8 where E ~ h⁴, α = 1/8, β = 1/16 where E ~ h⁶,
+//!
+//! E₋ of the step before, the factor between ⅕ and 5. A step that the caller's end cuts short leaves the length as it was. Solves
+//! are exact to J/4096: what they leave undone is small beside what the step does. So the bits are a function of the scene,
+//! the options and the ends that are asked for.
+//!
+//! J is an error per step, not of a run. A method of order 2 gets up to ten times closer with J a hundred times smaller.
+//! After 24 rejections, or where a shorter step has no smaller error (that is rounding), [`StepError::Accuracy`], and
+//! [`Adaptive::attained`] tells the least E that was seen.
+//!
+//! Source: Gustafsson 1991, *Control theoretic techniques for stepsize selection in explicit Runge–Kutta methods*; Söderlind
+//! 2003, *Digital filters in adaptive time-stepping*.
+
+use super::Integrator;
+use super::embedded::{Embedded, LocalError};
+use crate::error::StepError;
+use crate::memory::Memory;
+use crate::parts::Parts;
+use crate::pins::Motion;
+use crate::real::Real;
+use crate::report::{IslandReport, Report};
+
+/// No more rejections of one step than these.
+const REJECTIONS: u32 = 24;
+
+/// A method with its steps' lengths chosen. A call of [`crate::MassSpring::step`] makes one step; [`Adaptive::made`] tells how
+/// long it was. Pins rest: a motion is refused, for it is given over a step whose length is known beforehand.
+///
+/// ```
+/// use hooke::{Adaptive, Rosenbrock2, Scene};
+/// let mut scene = Scene::<f64, 2, 1>::new();
+/// let (a, b) = (scene.particle([0.0; 3], 1.0)?, scene.particle([1.5, 0.0, 0.0], 1.0)?);
+/// let spring = scene.spring(a, b, 100.0)?;
+/// scene.set_rest_length(spring, 1.0)?;
+/// scene.pin(a)?;
+/// let memory = [[0.0; 3]; Rosenbrock2::<f64, ()>::needs(2)];
+/// let mut method = Adaptive::new(Rosenbrock2::new(0.01, memory), 0.01, 1e-8);
+/// let mut time = 0.0;
+/// while time < 0.5 {
+///     method.end_after(0.5 - time); // The next step ends there or before.
+///     scene.step(&mut method)?;
+///     time += method.made().dt;
+/// }
+/// let [x, ..] = scene.positions()[b];
+/// assert!((x - (1.0 + 0.5 * (10.0f64 * 0.5).cos())).abs() < 1e-2);
+/// # Ok::<(), Box<dyn std::error::Error>>(())
+/// ```
+#[derive(Debug, Clone, Copy)]
+pub struct Adaptive<I, T> {
+    /// The method, with its forces and its solver.
+    pub method: I,
+    accuracy: T,
+    /// The next step, unless the end is nearer
+    dt: T,
+    end: T,
+    /// J/E of the step before
+    before: T,
+    made: Made<T>,
+    attained: T,
+}
+
+/// A step that was made.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Made<T> {
+    /// How long it is, s.
+    pub dt: T,
+    /// Its estimated error.
+    pub error: LocalError<T>,
+    /// How many longer ones were rejected.
+    pub rejections: u32,
+}
+
+impl<I, T: Real> Adaptive<I, T> {
+    /// A method that begins with a step of `dt` seconds and takes steps whose error is at most so many joules.
+    pub const fn new(method: I, dt: T, accuracy: T) -> Self {
+        let none = LocalError { energy: T::ZERO, distance: T::ZERO };
+        let made = Made { dt: T::ZERO, error: none, rejections: 0 };
+        Self { method, accuracy, dt, end: T::ZERO, before: T::ONE, made, attained: T::ZERO }
+    }
+
+    /// The next step takes at most so many seconds; 0, as at first, for no end.
+    pub fn end_after(&mut self, seconds: T) {
+        self.end = seconds;
+    }
+
+    /// Another accuracy, J, from the next step on.
+    pub fn set_accuracy(&mut self, joules: T) {
+        self.accuracy = joules;
+    }
+
+    /// The step that the next one begins with, s, if no end is nearer.
+    pub fn dt(&self) -> T {
+        self.dt
+    }
+
+    /// The last step that was made.
+    pub fn made(&self) -> Made<T> {
+        self.made
+    }
+
+    /// After [`StepError::Accuracy`]: the least energy of an error that was reached, J.
+    pub fn attained(&self) -> T {
+        self.attained
+    }
+}
+
+/// x^(1/2ⁿ)
+fn root<T: Real>(mut x: T, n: u32) -> T {
+    for _ in 0..n {
+        x = x.sqrt();
+    }
+    x
+}
+
+/// x, but from `least` to `most`; a NaN becomes `least`.
+fn within<T: Real>(x: T, least: T, most: T) -> T {
+    if !(x >= least) {
+        least
+    } else if x > most {
+        most
+    } else {
+        x
+    }
+}
+
+impl<I: Embedded<T>, T: Real> Adaptive<I, T> {
+    /// J/E, within a range that keeps its roots finite.
+    fn ratio(&self, error: LocalError<T>) -> T {
+        let most = T::from_f64(1e8);
+        within(self.accuracy / error.energy, T::ONE / most, most)
+    }
+
+    /// How much longer the next step may be.
+    fn factor(&self, ratio: T) -> T {
+        let (integral, proportional) = if I::LOWER_ORDER <= 1 {
+            (root(ratio, 3) * root(ratio, 4), root(self.before, 3))
+        } else {
+            (root(ratio, 3), root(self.before, 4))
+        };
+        within(T::from_f64(0.9) * integral / proportional, T::from_f64(0.2), T::from_f64(5.0))
+    }
+
+    /// How much shorter a step must be to be accepted.
+    fn shortened(ratio: T) -> T {
+        let root = if I::LOWER_ORDER <= 1 { root(ratio, 2) } else { root(ratio, 3) * root(ratio, 4) };
+        within(T::from_f64(0.9) * root, T::from_f64(0.1), T::HALF)
+    }
+}
+
+impl<I: Embedded<T>, T: Real> Integrator<T> for Adaptive<I, T> {
+    fn advance<M: Memory<Real = T>>(
+        &mut self,
+        mut parts: Parts<'_, M>,
+        motion: &[Motion<T>],
+        watch: &mut impl FnMut(&IslandReport<T>),
+    ) -> Result<Report<T>, StepError> {
+        if let Some(m) = motion.first() {
+            return Err(StepError::Motion(m.particle));
+        }
+        if !(self.accuracy > T::ZERO && self.accuracy.is_finite()) {
+            return Err(StepError::Tolerance);
+        }
+        let cut = self.end > T::ZERO && self.end < self.dt;
+        let mut dt = if cut { self.end } else { self.dt };
+        let mut rejections = 0;
+        self.attained = T::ZERO;
+        let tiny = T::from_count(4096);
+        loop {
+            let error = match self.method.attempt(&mut parts, dt, self.accuracy / tiny, watch) {
+                Ok((report, error)) if error.energy <= self.accuracy => {
+                    self.method.accept(parts)?;
+                    let ratio = self.ratio(error);
+                    let next = dt * self.factor(ratio);
+                    if !(cut && rejections == 0 && next < self.dt) {
+                        self.dt = next;
+                    }
+                    self.before = ratio;
+                    self.made = Made { dt, error, rejections };
+                    return Ok(report);
+                }
+                Ok((_, error)) => Some(error),
+                // What is out of range at this step need not be at a shorter one.
+                Err(StepError::NotFinite(_)) => None,
+                Err(error) => return Err(error),
+            };
+            dt = dt * error.map_or(T::from_f64(0.1), |error| Self::shortened(self.ratio(error)));
+            rejections += 1;
+            let energy = error.map_or(T::ZERO, |error| error.energy);
+            // Half the step or less without half the error: no step helps.
+            let stuck = rejections > 6 && self.attained > T::ZERO && energy > T::HALF * self.attained;
+            if energy > T::ZERO && !(self.attained > T::ZERO && self.attained < energy) {
+                self.attained = energy;
+            }
+            if stuck || rejections >= REJECTIONS {
+                return Err(StepError::Accuracy);
+            }
+        }
+    }
+}

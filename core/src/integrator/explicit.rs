@@ -1,0 +1,312 @@
+//! What explicit methods share: forces at any state, a bound on how stiff a scene is, and the step that follows from it.
+//!
+//! No eigenvalue of M⁻¹(−K) exceeds λ = max_i (1/mᵢ) Σ_{e∋i} c_e kₑ, with c_e = 1 where the other end is pinned or a point,
+//! else 2: H ⪯ kI for every spring, however long it is. So the limits need no state and hold for all of a run, until k, m or
+//! a pin changes. They are those of the frozen matrix, as in every linear theory: no guarantee for a nonlinear scene, but
+//! where they are broken a scene leaves. Likewise the rates of damping: d = max_i (dᵢ + Σ c_e cₑ)/mᵢ.
+//!
+//! Source: Gershgorin's circles on M⁻¹K; Belytschko, Liu & Moran, *Nonlinear Finite Elements*, §6.2 (critical time steps).
+
+use crate::error::StepError;
+use crate::force::{Force, Rows};
+use crate::hessian::Scaling;
+use crate::islands::{Island, Islands};
+use crate::memory::{Memory, part};
+use crate::network::{Network, State};
+use crate::parts::Parts;
+use crate::pins::Motion;
+use crate::real::Real;
+use crate::report::Report;
+use crate::selection::MARK;
+use crate::vec3::{self, Vec3};
+
+use super::stage;
+
+/// How fast a scene's parts can answer: what limits the step of explicit methods.
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Stiffest<T> {
+    /// λ, 1/s²: no ω² is larger
+    pub square: T,
+    /// d, 1/s: no damping is faster
+    pub damping: T,
+    /// The particle where h²λ + 2hd is largest for the step that was asked about
+    pub particle: usize,
+}
+
+/// λ and d of a scene, which needs its islands renewed; `forces` get a scaling of their own. O(particles + springs).
+pub(crate) fn stiffest<M: Memory<Real = T>, T: Real, F: Force<T>>(
+    parts: &mut Parts<'_, M>,
+    forces: &mut F,
+    h: T,
+) -> Stiffest<T> {
+    let Parts { network, islands, work } = parts;
+    let state = network.state();
+    // k in μ, damping in the inertia, both scratch between steps.
+    for (mu, d) in work.mu.iter_mut().zip(work.inertia.iter_mut()) {
+        (*mu, *d) = (T::ZERO, T::ZERO);
+    }
+    let free = islands.free;
+    each_spring(islands, |row, other, j| {
+        let (k, c) = (state.spring(j).stiffness, if F::DAMPS { forces.damping(j) } else { T::ZERO });
+        let both = if other < free { T::TWO } else { T::ONE };
+        for end in [row, other] {
+            if let (Some(mu), Some(d)) = (work.mu.get_mut(end), work.inertia.get_mut(end)) {
+                *mu += both * k;
+                *d += both * c;
+            }
+        }
+    });
+    let rows = islands.all_rows(&state);
+    if F::ANCHORS {
+        forces.linearize(&rows, Scaling::unit());
+        forces.hessians(&rows, &mut |row, h| {
+            if let Some(mu) = work.mu.get_mut(row) {
+                *mu += h.alpha.abs() + vec3::dot(h.w, h.w);
+            }
+        });
+    }
+    let mut most = Stiffest { square: T::ZERO, damping: T::ZERO, particle: 0 };
+    let mut worst = T::ZERO;
+    for ((i, k), c) in rows.particles().zip(work.mu.iter()).zip(work.inertia.iter()) {
+        let m = state.mass.get(i).copied().unwrap_or(T::ONE);
+        let drag = if F::DRAGS { forces.drag(i, m) } else { T::ZERO };
+        let (square, damping) = (*k / m, (*c + drag) / m);
+        let own = h * (h * square + T::TWO * damping);
+        if !(own <= worst) {
+            (worst, most.particle) = (own, i);
+        }
+        if !(square <= most.square) {
+            most.square = square;
+        }
+        if !(damping <= most.damping) {
+            most.damping = damping;
+        }
+    }
+    most
+}
+
+/// Visits the springs of all islands: (row, other end, spring), both ends as slots.
+#[inline(always)]
+fn each_spring<M: Memory>(islands: &Islands<M>, mut visit: impl FnMut(usize, usize, usize)) {
+    for words in islands.islands() {
+        let island = Island::unpack(*words);
+        let own = part(&islands.own, island.slots());
+        let mut springs =
+            part(&islands.other, island.springs()).iter().zip(part(&islands.spring, island.springs()));
+        for (row, own) in own.iter().enumerate() {
+            for (other, j) in springs.by_ref().take(*own as usize) {
+                visit(island.first + row, island.first + *other as usize, *j as usize);
+            }
+        }
+    }
+}
+
+/// f of all springs added to b, by slot: their elastic part, at the state's positions.
+#[inline(never)]
+fn elastic<M: Memory<Real = T>, T: Real>(islands: &Islands<M>, state: &State<'_, T>, b: &mut [Vec3<T>]) {
+    walk(islands, b, |j, [near, far]| stage::force::<T, (), M::Law>(state, &(), j, [near, far]));
+}
+
+/// The springs' damping added to b: −c(u·Δq̇)u.
+#[inline(never)]
+fn damping<M: Memory<Real = T>, T: Real, F: Force<T>>(
+    islands: &Islands<M>,
+    state: &State<'_, T>,
+    forces: &F,
+    b: &mut [Vec3<T>],
+) {
+    walk(islands, b, |j, ends| stage::damped::<T, F, M::Law>(state, forces, j, ends));
+}
+
+/// Adds what `force` says of each spring to its two ends.
+#[inline(always)]
+fn walk<M: Memory<Real = T>, T: Real>(
+    islands: &Islands<M>,
+    b: &mut [Vec3<T>],
+    force: impl Fn(usize, [usize; 2]) -> Vec3<T>,
+) {
+    let place = |slot: usize| islands.particle.get(slot).map_or(usize::MAX, |i| *i as usize);
+    let free = islands.free;
+    each_spring(islands, |row, other, j| {
+        let f = force(j, [place(row), place(other)]);
+        if let Some(b) = b.get_mut(row) {
+            *b = vec3::add(*b, f);
+        }
+        if other < free && let Some(b) = b.get_mut(other) {
+            *b = vec3::sub(*b, f);
+        }
+    });
+}
+
+/// A scene on its way through an explicit step: q and q̇ beside the scene's own, in its numbering, and forces by slot.
+pub(crate) struct Explicit<'a, M: Memory> {
+    network: &'a mut Network<M>,
+    islands: &'a Islands<M>,
+    position: &'a mut [Vec3<M::Real>],
+    velocity: &'a mut [Vec3<M::Real>],
+    force: &'a mut [Vec3<M::Real>],
+    /// Scratch, by slot
+    start: &'a mut [Vec3<M::Real>],
+}
+
+impl<'a, M: Memory<Real = T>, T: Real> Explicit<'a, M> {
+    /// Where the scene is.
+    pub(crate) fn new(parts: Parts<'a, M>) -> Self {
+        let Parts { network, islands, work } = parts;
+        let this =
+            Self {
+                network,
+                islands,
+                position: &mut work.r,
+                velocity: &mut work.p,
+                force: &mut work.b,
+                start: &mut work.y,
+            };
+        let pairs = [(&mut *this.position, &*this.network.position), (&mut *this.velocity, &this.network.velocity)];
+        for (to, from) in pairs {
+            for (to, from) in to.iter_mut().zip(from) {
+                *to = vec3::add([T::ZERO; 3], *from);
+            }
+        }
+        for (i, slot) in this.network.slot.iter().enumerate() {
+            if slot & MARK != 0 && let Some(v) = this.velocity.get_mut(i) {
+                *v = [T::ZERO; 3];
+            }
+        }
+        this
+    }
+
+    /// Moving pins where and as fast as they are after the part `s` of a step of `dt`.
+    pub(crate) fn pins(&mut self, motion: &[Motion<T>], s: T, dt: T) {
+        for m in motion {
+            let (Some(b), Some(rate)) =
+                (self.network.position.get(m.particle), self.network.velocity.get(m.particle))
+            else {
+                continue;
+            };
+            let [q, v] = m.at(s, dt, *b, *rate);
+            if let (Some(to), Some(to_v)) =
+                (self.position.get_mut(m.particle), self.velocity.get_mut(m.particle))
+            {
+                (*to, *to_v) = (q, v);
+            }
+        }
+    }
+
+    /// f into the forces: the springs' own and what the others add; with `damped` also drag and the springs' damping.
+    pub(crate) fn forces<F: Force<T>>(&mut self, forces: &F, damped: bool) {
+        let Self { network, islands, position, velocity, force, .. } = self;
+        let state = State { position, velocity, ..network.state() };
+        force.fill([T::ZERO; 3]);
+        let rows = islands.all_rows(&state);
+        forces.add(&rows, force);
+        elastic(islands, &state, force);
+        if damped && (F::DRAGS || F::DAMPS) {
+            resist(islands, &rows, forces, force);
+        }
+    }
+
+    /// Drag and the springs' damping alone into the forces.
+    fn damp<F: Force<T>>(&mut self, forces: &F) {
+        let Self { network, islands, position, velocity, force, .. } = self;
+        let state = State { position, velocity, ..network.state() };
+        force.fill([T::ZERO; 3]);
+        resist(islands, &islands.all_rows(&state), forces, force);
+    }
+
+    /// q̇ += t·M⁻¹f
+    pub(crate) fn kick(&mut self, t: T) {
+        for (i, f) in self.islands.particle.iter().zip(self.force.iter()).take(self.islands.free) {
+            let i = *i as usize;
+            if let (Some(v), Some(m)) = (self.velocity.get_mut(i), self.network.mass.get(i)) {
+                *v = vec3::add_scaled(*v, t / *m, *f);
+            }
+        }
+    }
+
+    /// q += t·q̇
+    pub(crate) fn drift(&mut self, t: T) {
+        for i in self.islands.particle.iter().take(self.islands.free) {
+            let i = *i as usize;
+            if let (Some(q), Some(v)) = (self.position.get_mut(i), self.velocity.get(i)) {
+                *q = vec3::add_scaled(*q, t, *v);
+            }
+        }
+    }
+
+    /// q̇ over the time t of damping alone, to second order: q̇ ← q̇ + tE(q̇ + ½tEq̇), E = −M⁻¹D.
+    pub(crate) fn fade<F: Force<T>>(&mut self, forces: &F, t: T) {
+        if !F::DRAGS && !F::DAMPS {
+            return;
+        }
+        for (start, i) in self.start.iter_mut().zip(self.islands.particle.iter()).take(self.islands.free) {
+            *start = self.velocity.get(*i as usize).copied().unwrap_or([T::ZERO; 3]);
+        }
+        self.damp(forces);
+        self.kick(T::HALF * t);
+        self.damp(forces);
+        for (start, i) in self.start.iter().zip(self.islands.particle.iter()).take(self.islands.free) {
+            if let Some(v) = self.velocity.get_mut(*i as usize) {
+                *v = vec3::add([T::ZERO; 3], *start);
+            }
+        }
+        self.kick(t);
+    }
+
+    /// Takes the state: what is not finite is refused, and then the scene is as it was.
+    pub(crate) fn commit(self, motion: &[Motion<T>]) -> Result<(), StepError> {
+        let Self { network, islands, position, velocity, .. } = self;
+        for i in islands.particle.iter().take(islands.free) {
+            let i = *i as usize;
+            let finite = |list: &[Vec3<T>]| list.get(i).is_some_and(|x| vec3::is_finite(*x));
+            if !finite(position) || !finite(velocity) {
+                return Err(StepError::NotFinite(i));
+            }
+        }
+        for (slot, i) in islands.particle.iter().enumerate() {
+            let i = *i as usize;
+            let (Some(q), Some(v)) = (network.position.get_mut(i), network.velocity.get_mut(i)) else { continue };
+            if slot < islands.free {
+                if let (Some(next), Some(rate)) = (position.get(i), velocity.get(i)) {
+                    (*q, *v) = (*next, *rate);
+                }
+            } else {
+                *v = [T::ZERO; 3];
+            }
+        }
+        for m in motion {
+            if let (Some(q), Some(v)) = (network.position.get_mut(m.particle), network.velocity.get_mut(m.particle)) {
+                (*q, *v) = (m.position, m.velocity);
+            }
+        }
+        Ok(())
+    }
+
+    /// A report of islands that needed no solve.
+    pub(crate) fn report(&self) -> Report<T> {
+        let mut report = Report::new(self.network.ends.len() - self.islands.edges);
+        report.islands = self.islands.count as u32;
+        report.certified = report.islands;
+        report
+    }
+}
+
+/// Drag and the springs' damping added to f.
+fn resist<M: Memory<Real = T>, T: Real, F: Force<T>>(
+    islands: &Islands<M>,
+    rows: &Rows<'_, T>,
+    forces: &F,
+    f: &mut [Vec3<T>],
+) {
+    if F::DRAGS {
+        for (f, i) in f.iter_mut().zip(rows.particles()) {
+            if let (Some(m), Some(v)) = (rows.state.mass.get(i), rows.state.velocity.get(i)) {
+                *f = vec3::add_scaled(*f, -forces.drag(i, *m), *v);
+            }
+        }
+    }
+    if F::DAMPS {
+        damping(islands, rows.state, forces, f);
+    }
+}
