@@ -15,6 +15,13 @@ pub struct Parts<'a, M: Memory> {
     pub(crate) work: &'a mut WorkLists<M>,
 }
 
+impl<M: Memory> Parts<'_, M> {
+    /// The same for a while.
+    pub(crate) fn reborrow(&mut self) -> Parts<'_, M> {
+        Parts { network: self.network, islands: self.islands, work: self.work }
+    }
+}
+
 /// One island of a scene: its rows of every list. Opaque, and named only here.
 pub struct IslandParts<'a, T> {
     pub(crate) matrix: Matrix<'a, T>,

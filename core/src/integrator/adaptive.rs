@@ -166,6 +166,10 @@ impl<I: Embedded<T>, T: Real> Integrator<T> for Adaptive<I, T> {
         if !(self.accuracy > T::ZERO && self.accuracy.is_finite()) {
             return Err(StepError::Tolerance);
         }
+        let longest = self.method.longest(&mut parts);
+        if longest < self.dt {
+            self.dt = longest;
+        }
         let cut = self.end > T::ZERO && self.end < self.dt;
         let mut dt = if cut { self.end } else { self.dt };
         let mut rejections = 0;

@@ -30,6 +30,12 @@ pub trait Embedded<T: Real>: Integrator<T> {
     /// the power 2(this + 1) of the step.
     const LOWER_ORDER: u32;
 
+    /// No longer step is stable for the scene as it is, s; infinite unless said.
+    fn longest<M: Memory<Real = T>>(&mut self, parts: &mut Parts<'_, M>) -> T {
+        let _ = parts;
+        T::ONE / T::ZERO
+    }
+
     /// Makes a step of `dt`, with solves exact to `absolute` joules, beside the scene; pins rest.
     ///
     /// # Errors

@@ -15,7 +15,7 @@ use crate::memory::{Memory, part};
 use crate::network::{Network, State};
 use crate::parts::Parts;
 use crate::pins::Motion;
-use crate::real::Real;
+use crate::real::{Real, larger};
 use crate::report::Report;
 use crate::selection::MARK;
 use crate::vec3::{self, Vec3};
@@ -133,7 +133,9 @@ fn walk<M: Memory<Real = T>, T: Real>(
         if let Some(b) = b.get_mut(row) {
             *b = vec3::add(*b, f);
         }
-        if other < free && let Some(b) = b.get_mut(other) {
+        if other < free
+            && let Some(b) = b.get_mut(other)
+        {
             *b = vec3::sub(*b, f);
         }
     });
@@ -148,33 +150,43 @@ pub(crate) struct Explicit<'a, M: Memory> {
     force: &'a mut [Vec3<M::Real>],
     /// Scratch, by slot
     start: &'a mut [Vec3<M::Real>],
+    /// The forces where the step began, by slot
+    before: &'a mut [Vec3<M::Real>],
 }
 
 impl<'a, M: Memory<Real = T>, T: Real> Explicit<'a, M> {
     /// Where the scene is.
     pub(crate) fn new(parts: Parts<'a, M>) -> Self {
-        let Parts { network, islands, work } = parts;
-        let this =
-            Self {
-                network,
-                islands,
-                position: &mut work.r,
-                velocity: &mut work.p,
-                force: &mut work.b,
-                start: &mut work.y,
-            };
-        let pairs = [(&mut *this.position, &*this.network.position), (&mut *this.velocity, &this.network.velocity)];
+        let this = Self::resume(parts);
+        let pairs =
+            [(&mut *this.position, &*this.network.position), (&mut *this.velocity, &this.network.velocity)];
         for (to, from) in pairs {
             for (to, from) in to.iter_mut().zip(from) {
                 *to = vec3::add([T::ZERO; 3], *from);
             }
         }
         for (i, slot) in this.network.slot.iter().enumerate() {
-            if slot & MARK != 0 && let Some(v) = this.velocity.get_mut(i) {
+            if slot & MARK != 0
+                && let Some(v) = this.velocity.get_mut(i)
+            {
                 *v = [T::ZERO; 3];
             }
         }
         this
+    }
+
+    /// Where a step left off that was not taken yet.
+    pub(crate) fn resume(parts: Parts<'a, M>) -> Self {
+        let Parts { network, islands, work } = parts;
+        Self {
+            network,
+            islands,
+            position: &mut work.r,
+            velocity: &mut work.p,
+            force: &mut work.b,
+            start: &mut work.y,
+            before: &mut work.x,
+        }
     }
 
     /// Moving pins where and as fast as they are after the part `s` of a step of `dt`.
@@ -215,6 +227,28 @@ impl<'a, M: Memory<Real = T>, T: Real> Explicit<'a, M> {
         resist(islands, &islands.all_rows(&state), forces, force);
     }
 
+    /// Remembers the forces.
+    pub(crate) fn keep_forces(&mut self) {
+        for (kept, f) in self.before.iter_mut().zip(self.force.iter()).take(self.islands.free) {
+            *kept = vec3::add([T::ZERO; 3], *f);
+        }
+    }
+
+    /// ½ Σ mᵢ|h(aᵢ − a)/6|², a the acceleration that is remembered, and the farthest of these, as |·|².
+    pub(crate) fn change(&self, h: T) -> (T, T) {
+        let share = h / T::from_count(6);
+        let (mut energy, mut most) = (T::ZERO, T::ZERO);
+        let forces = self.force.iter().zip(self.before.iter()).zip(self.islands.particle.iter());
+        for ((f, before), i) in forces.take(self.islands.free) {
+            let m = self.network.mass.get(*i as usize).copied().unwrap_or(T::ONE);
+            let change = vec3::scale(share / m, vec3::sub(*f, *before));
+            let square = vec3::dot(change, change);
+            energy += T::HALF * m * square;
+            most = larger(most, square);
+        }
+        (energy, most)
+    }
+
     /// q̇ += t·M⁻¹f
     pub(crate) fn kick(&mut self, t: T) {
         for (i, f) in self.islands.particle.iter().zip(self.force.iter()).take(self.islands.free) {
@@ -235,10 +269,11 @@ impl<'a, M: Memory<Real = T>, T: Real> Explicit<'a, M> {
         }
     }
 
-    /// q̇ over the time t of damping alone, to second order: q̇ ← q̇ + tE(q̇ + ½tEq̇), E = −M⁻¹D.
-    pub(crate) fn fade<F: Force<T>>(&mut self, forces: &F, t: T) {
+    /// q̇ over the time t of damping alone, to second order: q̇ ← q̇ + tE(q̇ + ½tEq̇), E = −M⁻¹D. Answers ½‖½t²E²q̇‖²_M, its
+    /// difference to first order.
+    pub(crate) fn fade<F: Force<T>>(&mut self, forces: &F, t: T) -> T {
         if !F::DRAGS && !F::DAMPS {
-            return;
+            return T::ZERO;
         }
         for (start, i) in self.start.iter_mut().zip(self.islands.particle.iter()).take(self.islands.free) {
             *start = self.velocity.get(*i as usize).copied().unwrap_or([T::ZERO; 3]);
@@ -246,12 +281,24 @@ impl<'a, M: Memory<Real = T>, T: Real> Explicit<'a, M> {
         self.damp(forces);
         self.kick(T::HALF * t);
         self.damp(forces);
-        for (start, i) in self.start.iter().zip(self.islands.particle.iter()).take(self.islands.free) {
+        for (start, i) in self.start.iter_mut().zip(self.islands.particle.iter()).take(self.islands.free) {
             if let Some(v) = self.velocity.get_mut(*i as usize) {
+                // What half a kick has made of it: half of the first order's.
+                let half = vec3::sub(*v, *start);
                 *v = vec3::add([T::ZERO; 3], *start);
+                *start = half;
             }
         }
         self.kick(t);
+        let mut energy = T::ZERO;
+        for ((half, f), i) in
+            self.start.iter().zip(self.force.iter()).zip(self.islands.particle.iter()).take(self.islands.free)
+        {
+            let m = self.network.mass.get(*i as usize).copied().unwrap_or(T::ONE);
+            let change = vec3::add_scaled(vec3::scale(t / m, *f), -T::TWO, *half);
+            energy += T::HALF * m * vec3::dot(change, change);
+        }
+        energy
     }
 
     /// Takes the state: what is not finite is refused, and then the scene is as it was.
@@ -266,7 +313,9 @@ impl<'a, M: Memory<Real = T>, T: Real> Explicit<'a, M> {
         }
         for (slot, i) in islands.particle.iter().enumerate() {
             let i = *i as usize;
-            let (Some(q), Some(v)) = (network.position.get_mut(i), network.velocity.get_mut(i)) else { continue };
+            let (Some(q), Some(v)) = (network.position.get_mut(i), network.velocity.get_mut(i)) else {
+                continue;
+            };
             if slot < islands.free {
                 if let (Some(next), Some(rate)) = (position.get(i), velocity.get(i)) {
                     (*q, *v) = (*next, *rate);
@@ -276,7 +325,9 @@ impl<'a, M: Memory<Real = T>, T: Real> Explicit<'a, M> {
             }
         }
         for m in motion {
-            if let (Some(q), Some(v)) = (network.position.get_mut(m.particle), network.velocity.get_mut(m.particle)) {
+            if let (Some(q), Some(v)) =
+                (network.position.get_mut(m.particle), network.velocity.get_mut(m.particle))
+            {
                 (*q, *v) = (m.position, m.velocity);
             }
         }

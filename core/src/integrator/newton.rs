@@ -81,7 +81,8 @@ struct Way<T> {
 impl<T: Real> Way<T> {
     fn new() -> Self {
         let none = T::ZERO;
-        let solve = Solve { iterations: 0, upper: none, lower: none, ending: Ending::Untouched, fallback: false };
+        let solve =
+            Solve { iterations: 0, upper: none, lower: none, ending: Ending::Untouched, fallback: false };
         Self { iterations: 0, goal: none, before: none, flat: false, clamped: 0, certified: true, solve }
     }
 
@@ -152,6 +153,9 @@ impl<T: Real, F: Force<T>, S: Solver<T>, W: AsMut<[Vec3<T>]>, Z> Integrator<T>
                 }
                 if way.iterations >= ITERATIONS || !beta.is_finite() {
                     return Err(stuck);
+                }
+                if way.iterations > 0 {
+                    self.solver.repeat();
                 }
                 way.iterations += 1;
                 let (energy, rounding) = potential::<T, F, M::Law>(&island, &state, &self.forces, h);

@@ -15,6 +15,7 @@
 //! Source: Hairer, Lubich & Wanner 2003, *Geometric numerical integration illustrated by the Störmer–Verlet method*.
 
 use super::Integrator;
+use super::embedded::{Embedded, LocalError};
 use super::explicit::{Explicit, Stiffest, stiffest};
 use super::stepper::Stepper;
 use crate::error::StepError;
@@ -22,7 +23,7 @@ use crate::force::Force;
 use crate::memory::Memory;
 use crate::parts::Parts;
 use crate::pins::Motion;
-use crate::real::Real;
+use crate::real::{Real, larger};
 use crate::report::{IslandReport, Report};
 use crate::scene::MassSpring;
 
@@ -62,6 +63,52 @@ fn limit<T: Real>(of: &Stiffest<T>) -> T {
     if fade < swing { fade } else { swing }
 }
 
+/// What substeps are estimated to be wrong by.
+#[derive(Clone, Copy)]
+struct Wrong<T> {
+    energy: T,
+    square: T,
+}
+
+/// n substeps, which together are `dt`; with the part of λ that is in their estimate.
+fn walk<M: Memory<Real = T>, T: Real, F: Force<T>>(
+    scene: &mut Explicit<'_, M>,
+    forces: &F,
+    motion: &[Motion<T>],
+    (dt, substeps): (T, u32),
+    square: Option<T>,
+) -> Wrong<T> {
+    let n = T::from_count(substeps as usize);
+    let (h, half) = (dt / n, T::HALF * (dt / n));
+    let mut wrong = Wrong { energy: T::ZERO, square: T::ZERO };
+    scene.pins(motion, T::ZERO, dt);
+    scene.forces(forces, false);
+    for k in 0..substeps {
+        if square.is_some() {
+            scene.keep_forces();
+        }
+        scene.kick(half);
+        if F::DRAGS || F::DAMPS {
+            scene.drift(half);
+            scene.pins(motion, (T::from_count(k as usize) + T::HALF) / n, dt);
+            wrong.energy += scene.fade(forces, h);
+            scene.drift(half);
+        } else {
+            scene.drift(h);
+        }
+        scene.pins(motion, T::from_count(k as usize + 1) / n, dt);
+        scene.forces(forces, false);
+        scene.kick(half);
+        if let Some(square) = square {
+            let (energy, most) = scene.change(h);
+            wrong.energy += (T::TWO + h * h * square) * energy;
+            wrong.square = larger(wrong.square, most);
+        }
+    }
+    // Errors of substeps add up at worst: (Σ√Eₖ)² ≤ n ΣEₖ.
+    Wrong { energy: n * wrong.energy, square: n * n * h * h * wrong.square }
+}
+
 impl<T: Real, F: Force<T>, S, Z> Integrator<T> for Stepper<KickDriftKick, T, F, S, Z> {
     fn advance<M: Memory<Real = T>>(
         &mut self,
@@ -73,38 +120,54 @@ impl<T: Real, F: Force<T>, S, Z> Integrator<T> for Stepper<KickDriftKick, T, F, 
         self.pins(&mut parts, motion, Self::over_the_step(self.dt))?;
         let stiffest = stiffest(&mut parts, &mut self.forces, self.dt);
         let limit = limit(&stiffest);
-        let substeps = if self.dt < limit {
-            1
-        } else {
+        let mut substeps = 1;
+        if !(self.dt < limit) {
             // Saturates where that is more than there are numbers.
-            (self.dt / (T::from_f64(0.9) * limit)).to_f64() as u32
-        };
-        let substeps = if self.dt < limit { substeps } else { substeps.saturating_add(1) };
+            substeps = ((self.dt / (T::from_f64(0.9) * limit)).to_f64() as u32).saturating_add(1);
+        }
         if substeps > self.rule.at_most.max(1) || !(limit > T::ZERO) {
             return Err(StepError::StepLimit(stiffest.particle));
         }
-        let n = T::from_count(substeps as usize);
-        let (h, half) = (self.dt / n, T::HALF * (self.dt / n));
-        let damped = F::DRAGS || F::DAMPS;
         let mut scene = Explicit::new(parts);
-        scene.pins(motion, T::ZERO, self.dt);
-        scene.forces(&self.forces, false);
-        for k in 0..substeps {
-            scene.kick(half);
-            if damped {
-                scene.drift(half);
-                scene.pins(motion, (T::from_count(k as usize) + T::HALF) / n, self.dt);
-                scene.fade(&self.forces, h);
-                scene.drift(half);
-            } else {
-                scene.drift(h);
-            }
-            scene.pins(motion, T::from_count(k as usize + 1) / n, self.dt);
-            scene.forces(&self.forces, false);
-            scene.kick(half);
-        }
+        walk(&mut scene, &self.forces, motion, (self.dt, substeps), None);
         let report = scene.report();
         scene.commit(motion)?;
         Ok(report)
+    }
+}
+
+/// Under error control a step is made of so many substeps.
+const SUBSTEPS: u32 = 8;
+
+/// The position's error of a substep is h³ȧ/6 and more, which h²(a⁺ − a)/6 is, and the velocity's is no more than that over h
+/// below the limit: h³ä/12 and |ä| ≤ ω|ȧ|, hω < 2. Fading is judged by its difference to first order.
+impl<T: Real, F: Force<T>, S, Z> Embedded<T> for Stepper<KickDriftKick, T, F, S, Z> {
+    const LOWER_ORDER: u32 = 1;
+
+    fn longest<M: Memory<Real = T>>(&mut self, parts: &mut Parts<'_, M>) -> T {
+        let limit = limit(&stiffest(parts, &mut self.forces, self.dt));
+        T::from_f64(0.9) * T::from_count(SUBSTEPS as usize) * limit
+    }
+
+    fn attempt<M: Memory<Real = T>>(
+        &mut self,
+        parts: &mut Parts<'_, M>,
+        dt: T,
+        _: T,
+        _: &mut impl FnMut(&IslandReport<T>),
+    ) -> Result<(Report<T>, LocalError<T>), StepError> {
+        self.dt = dt;
+        self.check(parts.network)?;
+        let stiffest = stiffest(parts, &mut self.forces, dt);
+        let mut scene = Explicit::new(parts.reborrow());
+        let wrong = walk(&mut scene, &self.forces, &[], (dt, SUBSTEPS), Some(stiffest.square));
+        if !wrong.energy.is_finite() {
+            return Err(StepError::NotFinite(stiffest.particle));
+        }
+        Ok((scene.report(), LocalError { energy: wrong.energy, distance: wrong.square.sqrt() }))
+    }
+
+    fn accept<M: Memory<Real = T>>(&mut self, parts: Parts<'_, M>) -> Result<(), StepError> {
+        Explicit::resume(parts).commit(&[])
     }
 }

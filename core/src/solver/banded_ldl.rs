@@ -22,7 +22,7 @@ use crate::real::Real;
 use crate::report::Solve;
 use crate::scene::MassSpring;
 use crate::solver::chain;
-use crate::solver::direct::{self, Factors};
+use crate::solver::direct::{self, Factors, Kept};
 use crate::solver::panel::{Block, below, divided, first, subtract, three, three_mut};
 use crate::solver::pivot::inverse;
 use crate::solver::{Problem, Solver, Stop};
@@ -54,6 +54,7 @@ use crate::wide::{Dispatch, Preconditions, Wide, Widened, direct as in_lanes, pi
 #[derive(Debug, Clone, Copy)]
 pub struct BandedLdl<B> {
     workspace: B,
+    kept: Kept,
 }
 
 impl BandedLdl<()> {
@@ -100,7 +101,7 @@ impl<B> BandedLdl<B> {
     /// A solver in this workspace; [`BandedLdl::needs`] says how large it is to be. If it is too small, a step fails with
     /// [`StepError::Workspace`], which says so too.
     pub const fn new(workspace: B) -> Self {
-        Self { workspace }
+        Self { workspace, kept: Kept::nothing() }
     }
 }
 
@@ -125,14 +126,23 @@ impl<T: Real, B: AsMut<[T]>> Solver<T> for BandedLdl<B> {
         let Matrix { own, other, .. } = problem.system.matrix;
         let width = half_bandwidth(own, other);
         let numbers = BandedLdl::needs(own.len(), width);
-        let Some(workspace) = self.workspace.as_mut().get_mut(..numbers) else {
+        let Self { workspace, kept } = self;
+        let Some(workspace) = workspace.as_mut().get_mut(..numbers) else {
             return Err(StepError::Workspace { numbers, words: 0 });
         };
         Ok(if width <= 1 {
-            direct::solve(problem, stop, &mut Chain { towards: workspace.as_chunks_mut().0 })
+            direct::solve(problem, stop, &mut Chain { towards: workspace.as_chunks_mut().0 }, kept)
         } else {
-            direct::solve(problem, stop, &mut Band { width, columns: workspace })
+            direct::solve(problem, stop, &mut Band { width, columns: workspace }, kept)
         })
+    }
+    fn again<F: Force<T>>(
+        &mut self,
+        problem: Problem<'_, '_, T, F>,
+        stop: &Stop<T>,
+    ) -> Result<Solve<T>, StepError> {
+        self.kept.again();
+        self.solve(problem, stop)
     }
 }
 

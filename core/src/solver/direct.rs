@@ -65,15 +65,40 @@ pub(crate) struct On<'s, 'p, T, F> {
     pub(crate) pivots: &'s [[T; 6]],
 }
 
+/// What a solver knows of the factors it has: whether they are those of the matrix it was last given, and whether it is given
+/// that matrix again, with 1/μ in place of μ.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
+pub(crate) struct Kept {
+    again: bool,
+    factored: bool,
+}
+
+impl Kept {
+    /// The next solve is of another matrix.
+    pub(crate) const fn nothing() -> Self {
+        Self { again: false, factored: false }
+    }
+
+    /// The next solve is of the same matrix.
+    pub(crate) fn again(&mut self) {
+        self.again = true;
+    }
+}
+
 /// Solves A x = b. Of the vectors b and μ come in; x and 1/μ go out.
 #[inline(never)]
 pub(crate) fn solve<T: Real, F: Force<T>, D: Factors<T>>(
     problem: Problem<'_, '_, T, F>,
     stop: &Stop<T>,
     factors: &mut D,
+    kept: &mut Kept,
 ) -> Solve<T> {
     let Problem { system, vectors: v, block, free } = problem;
-    invert(v.mu);
+    let factored = kept.again && kept.factored;
+    if !kept.again {
+        invert(v.mu);
+    }
+    *kept = Kept { again: false, factored };
     let nothing = v.start();
     if nothing {
         let none = T::ZERO;
@@ -88,7 +113,8 @@ pub(crate) fn solve<T: Real, F: Force<T>, D: Factors<T>>(
     }
     let untouched = from <= goal && from.is_finite();
     let mut ending = if untouched { Some(Ending::Untouched) } else { None };
-    let mut sound = untouched || factors.factor(&system, block);
+    let mut sound = untouched || factored || factors.factor(&system, block);
+    kept.factored = factored || (sound && !untouched);
     let mut iterations = 0;
     while sound && ending.is_none() {
         if iterations >= stop.max_iterations {
@@ -112,6 +138,7 @@ pub(crate) fn solve<T: Real, F: Force<T>, D: Factors<T>>(
         from = reached;
     }
     let Some(ending) = ending.filter(|_| sound) else {
+        kept.factored = false;
         // Twice inverted, μ is off by two roundings: the bounds' cover has room for more.
         invert(v.mu);
         let left = Stop { max_iterations: stop.max_iterations.saturating_sub(iterations), ..*stop };

@@ -73,6 +73,10 @@ pub trait Solver<T: Real> {
     #[inline(always)]
     fn begin(&mut self) {}
 
+    /// The next system is of the same island as the last one, with other numbers.
+    #[inline(always)]
+    fn repeat(&mut self) {}
+
     /// Assembles one island's system and solves it. A solver with a layout of its own may assemble in its own way; the
     /// others have it done in the scene's lists.
     ///
@@ -84,7 +88,8 @@ pub trait Solver<T: Real> {
         stop: &Stop<T>,
     ) -> Result<Answer<T>, StepError> {
         let Island { island, forces, h, scaling } = to;
-        let Assembled { clamped, certified, points, free } = assemble::<T, F, L, _>(island, forces, h, scaling, &Same)?;
+        let Assembled { clamped, certified, points, free } =
+            assemble::<T, F, L, _>(island, forces, h, scaling, &Same)?;
         let IslandParts { matrix, vectors, block, .. } = island;
         let system = System { matrix, forces: &*forces, points };
         let solve = self.solve(Problem { system, vectors, block, free }, stop)?;
@@ -111,6 +116,7 @@ pub trait Solver<T: Real> {
         problem: Problem<'_, '_, T, F>,
         stop: &Stop<T>,
     ) -> Result<Solve<T>, StepError> {
+        self.repeat();
         direct::invert(problem.vectors.mu);
         self.solve(problem, stop)
     }
@@ -129,6 +135,11 @@ impl<T: Real, S: Solver<T>> Solver<T> for &mut S {
     #[inline]
     fn begin(&mut self) {
         (**self).begin();
+    }
+
+    #[inline]
+    fn repeat(&mut self) {
+        (**self).repeat();
     }
 
     fn solve<F: Force<T>>(

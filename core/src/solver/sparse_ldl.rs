@@ -17,7 +17,7 @@ use crate::real::Real;
 use crate::report::Solve;
 use crate::scene::MassSpring;
 use crate::solver::around;
-use crate::solver::direct::{self, Factors, On};
+use crate::solver::direct::{self, Factors, Kept, On};
 use crate::solver::elimination::{FIXED, Sizes, analyse, fingerprint, lists};
 use crate::solver::precision::{Numbers, to};
 use crate::solver::supernodes::Supernodes;
@@ -74,21 +74,33 @@ pub struct SparseLdl<O, N, W, D = Portable> {
     known: usize,
     /// Where the next island's record is or is to be
     cursor: usize,
+    /// Where the last one's is
+    last: usize,
     dispatch: D,
+    kept: Kept,
 }
 
 impl<O, N, W> SparseLdl<O, N, W> {
     /// A solver that eliminates in this order, in this workspace.
     pub const fn new(order: O, numbers: N, words: W) -> Self {
-        Self { order, numbers, words, known: 0, cursor: 0, dispatch: Portable }
+        Self {
+            order,
+            numbers,
+            words,
+            known: 0,
+            cursor: 0,
+            last: 0,
+            dispatch: Portable,
+            kept: Kept::nothing(),
+        }
     }
 }
 
 impl<O, N, W, D> SparseLdl<O, N, W, D> {
     /// The same with its arithmetic run by a host's wider instructions; the same bits.
     pub fn dispatched_by<E: Dispatch>(self, dispatch: E) -> SparseLdl<O, N, W, E> {
-        let Self { order, numbers, words, known, cursor, .. } = self;
-        SparseLdl { order, numbers, words, known, cursor, dispatch }
+        let Self { order, numbers, words, known, cursor, last, kept, .. } = self;
+        SparseLdl { order, numbers, words, known, cursor, last, dispatch, kept }
     }
 }
 
@@ -179,7 +191,21 @@ where
     W: AsMut<[u32]>,
 {
     fn begin(&mut self) {
-        self.cursor = 0;
+        (self.cursor, self.last) = (0, 0);
+    }
+
+    fn repeat(&mut self) {
+        self.cursor = self.last;
+    }
+
+    fn again<F: Force<T>>(
+        &mut self,
+        problem: Problem<'_, '_, T, F>,
+        stop: &Stop<T>,
+    ) -> Result<Solve<T>, StepError> {
+        self.repeat();
+        self.kept.again();
+        self.solve(problem, stop)
     }
 
     fn solve<F: Force<T>>(
@@ -201,10 +227,13 @@ where
         let supernodes =
             lists.and_then(|lists| Supernodes::new(&sizes, lists, self.numbers.numbers(), scratch));
         let Some(supernodes) = supernodes else { return Err(lacks) };
-        self.cursor = end;
+        (self.last, self.cursor) = (begin - FIXED, end);
         let less = <N as Numbers<T>>::LESS;
         let mut factors = Dispatched { supernodes, dispatch: self.dispatch, scale: T::ONE, less };
-        Ok(direct::solve(problem, stop, &mut factors))
+        if less {
+            factors.scale = T::ONE / problem.system.largest();
+        }
+        Ok(direct::solve(problem, stop, &mut factors, &mut self.kept))
     }
 }
 
@@ -242,9 +271,6 @@ impl<T: Real, U: Real, D: Dispatch> Dispatched<'_, T, U, D> {
 impl<T: Real, U: Real, D: Dispatch> Factors<T> for Dispatched<'_, T, U, D> {
     #[inline(never)]
     fn factor<F: Force<T>>(&mut self, system: &System<'_, T, F>, blocks: &mut [[T; 6]]) -> bool {
-        if self.less {
-            self.scale = T::ONE / system.largest();
-        }
         self.supernodes.assemble(system, blocks, self.scale);
         let Self { supernodes, dispatch, .. } = self;
         dispatch.run(

@@ -271,6 +271,18 @@ impl<T: Real, N: AsMut<[T]>, W: AsMut<[u32]>, D: Dispatch, P: Preconditions<T>> 
         self.preconditioner.begin();
     }
 
+    fn repeat(&mut self) {
+        self.preconditioner.repeat();
+    }
+
+    fn again<F: Force<T>>(
+        &mut self,
+        problem: Problem<'_, '_, T, F>,
+        stop: &Stop<T>,
+    ) -> Result<Solve<T>, StepError> {
+        self.preconditioner.again(problem, stop)
+    }
+
     fn answer<F: Force<T>, L: Law>(
         &mut self,
         mut to: Island<'_, '_, T, F>,

@@ -69,6 +69,8 @@ pub struct Multigrid<N, W, D = Portable> {
     dispatch: D,
     /// Where the next island's hierarchy is kept
     place: usize,
+    /// Where the last one's is, if it is kept
+    last: usize,
     /// Where the last one's ends
     end: usize,
     /// May what later islands kept have been written over?
@@ -87,7 +89,7 @@ impl<N, W, D: Dispatch> Multigrid<N, W, D> {
     /// A solver in this workspace; [`Multigrid::needs`] says how large it is to be. If it is too small, a step fails with
     /// [`StepError::Workspace`], which says so too.
     pub const fn new(numbers: N, words: W, dispatch: D) -> Self {
-        Self { numbers, words, dispatch, place: 0, end: 0, spoilt: false }
+        Self { numbers, words, dispatch, place: 0, last: 0, end: 0, spoilt: false }
     }
 }
 
@@ -118,6 +120,7 @@ impl<N: AsMut<[f32]>, W: AsMut<[u32]>, D: Dispatch> Multigrid<N, W, D> {
         let place = if keeps { self.place } else { back - kept };
         let forgotten_from = if keeps { back } else { place };
         let kept = front.get_mut(place..place + kept).ok_or(short)?;
+        self.last = self.place;
         if keeps {
             self.place += kept.len();
         }
@@ -177,7 +180,11 @@ pub enum LevelPart {
 
 impl<T: Real, N: AsMut<[f32]>, W: AsMut<[u32]>, D: Dispatch> Solver<T> for Multigrid<N, W, D> {
     fn begin(&mut self) {
-        (self.place, self.spoilt) = (0, false);
+        (self.place, self.last, self.spoilt) = (0, 0, false);
+    }
+
+    fn repeat(&mut self) {
+        self.place = self.last;
     }
 
     fn solve<F: Force<T>>(
