@@ -10,8 +10,8 @@
 //! the options and the ends that are asked for.
 //!
 //! J is an error per step, not of a run. A method of order 2 gets up to ten times closer with J a hundred times smaller.
-//! After 24 rejections, or where a shorter step has no smaller error (that is rounding), [`StepError::Accuracy`], and
-//! [`Adaptive::attained`] tells the least E that was seen.
+//! Where J is below what rounding makes of a step, ½u²Σm(|q̇|² + |q|²/h²), where a shorter step has no smaller error, or after 24
+//! rejections, [`StepError::Accuracy`], and [`Adaptive::attained`] tells the least E that is to be had.
 //!
 //! Source: Gustafsson 1991, *Control theoretic techniques for stepsize selection in explicit Runge–Kutta methods*; Söderlind
 //! 2003, *Digital filters in adaptive time-stepping*.
@@ -24,6 +24,8 @@ use crate::parts::Parts;
 use crate::pins::Motion;
 use crate::real::Real;
 use crate::report::{IslandReport, Report};
+use crate::scene::MassSpring;
+use crate::vec3;
 
 /// No more rejections of one step than these.
 const REJECTIONS: u32 = 24;
@@ -104,7 +106,7 @@ impl<I, T: Real> Adaptive<I, T> {
         self.made
     }
 
-    /// After [`StepError::Accuracy`]: the least energy of an error that was reached, J.
+    /// After [`StepError::Accuracy`]: the least energy of an error that is to be had, J.
     pub fn attained(&self) -> T {
         self.attained
     }
@@ -116,6 +118,20 @@ fn root<T: Real>(mut x: T, n: u32) -> T {
         x = x.sqrt();
     }
     x
+}
+
+/// Σ mᵢ|q̇ᵢ|² and Σ mᵢ|qᵢ|² over free particles.
+fn sizes<M: Memory<Real = T>, T: Real>(parts: &Parts<'_, M>) -> (T, T) {
+    let state = parts.network.state();
+    let (mut moving, mut placed) = (T::ZERO, T::ZERO);
+    for i in parts.islands.all_rows(&state).particles() {
+        if let (Some(m), Some(q), Some(v)) = (state.mass.get(i), state.position.get(i), state.velocity.get(i))
+        {
+            moving += *m * vec3::dot(*v, *v);
+            placed += *m * vec3::dot(*q, *q);
+        }
+    }
+    (moving, placed)
 }
 
 /// x, but from `least` to `most`; a NaN becomes `least`.
@@ -153,6 +169,53 @@ impl<I: Embedded<T>, T: Real> Adaptive<I, T> {
     }
 }
 
+impl<I: Embedded<T>, T: Real> Adaptive<I, T> {
+    /// Finds how long a step may be where the scene is, by at most four attempts, none of which is taken; the next step begins
+    /// with that. Answers it, and the report of the last attempt: what such a step costs. For choosing between methods.
+    ///
+    /// # Errors
+    /// [`StepError`]; nothing has changed.
+    pub fn probe<M: Memory<Real = T>>(
+        &mut self,
+        scene: &mut MassSpring<M>,
+    ) -> Result<(T, Report<T>), StepError> {
+        let mut parts = scene.parts();
+        let longest = self.method.longest(&mut parts);
+        let mut attempts = 0;
+        loop {
+            if longest < self.dt {
+                self.dt = longest;
+            }
+            attempts += 1;
+            let absolute = self.accuracy / T::from_count(4096);
+            let near = match self.method.attempt(&mut parts, self.dt, absolute, &mut |_| {}) {
+                Ok((report, error)) => {
+                    let ratio = self.ratio(error);
+                    let root =
+                        if I::LOWER_ORDER <= 1 { root(ratio, 2) } else { root(ratio, 3) * root(ratio, 4) };
+                    let factor = within(T::from_f64(0.9) * root, T::from_f64(0.05), T::from_f64(20.0));
+                    self.before = T::ONE;
+                    self.dt = self.dt * factor;
+                    let there = factor > T::HALF && factor < T::TWO || (longest < self.dt && factor > T::ONE);
+                    if longest < self.dt {
+                        self.dt = longest;
+                    }
+                    there.then_some(report).or((attempts == 4).then_some(report))
+                }
+                Err(StepError::NotFinite(i)) if attempts == 4 => return Err(StepError::NotFinite(i)),
+                Err(StepError::NotFinite(_)) => {
+                    self.dt = self.dt * T::from_f64(0.05);
+                    None
+                }
+                Err(error) => return Err(error),
+            };
+            if let Some(report) = near {
+                return Ok((self.dt, report));
+            }
+        }
+    }
+}
+
 impl<I: Embedded<T>, T: Real> Integrator<T> for Adaptive<I, T> {
     fn advance<M: Memory<Real = T>>(
         &mut self,
@@ -174,8 +237,16 @@ impl<I: Embedded<T>, T: Real> Integrator<T> for Adaptive<I, T> {
         let mut dt = if cut { self.end } else { self.dt };
         let mut rejections = 0;
         self.attained = T::ZERO;
+        let (moving, placed) = sizes(&parts);
         let tiny = T::from_count(4096);
         loop {
+            // What rounding alone is as an error: u of every position and velocity.
+            let unit = T::HALF * T::UNIT_ROUNDOFF * T::UNIT_ROUNDOFF;
+            let rounding = unit * (moving + placed / (dt * dt));
+            if !(rounding <= self.accuracy) {
+                self.attained = rounding;
+                return Err(StepError::Accuracy);
+            }
             let error = match self.method.attempt(&mut parts, dt, self.accuracy / tiny, watch) {
                 Ok((report, error)) if error.energy <= self.accuracy => {
                     self.method.accept(parts)?;

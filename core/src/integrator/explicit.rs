@@ -214,7 +214,7 @@ impl<'a, M: Memory<Real = T>, T: Real> Explicit<'a, M> {
         let rows = islands.all_rows(&state);
         forces.add(&rows, force);
         elastic(islands, &state, force);
-        if damped && (F::DRAGS || F::DAMPS) {
+        if damped {
             resist(islands, &rows, forces, force);
         }
     }
@@ -272,9 +272,6 @@ impl<'a, M: Memory<Real = T>, T: Real> Explicit<'a, M> {
     /// q̇ over the time t of damping alone, to second order: q̇ ← q̇ + tE(q̇ + ½tEq̇), E = −M⁻¹D. Answers ½‖½t²E²q̇‖²_M, its
     /// difference to first order.
     pub(crate) fn fade<F: Force<T>>(&mut self, forces: &F, t: T) -> T {
-        if !F::DRAGS && !F::DAMPS {
-            return T::ZERO;
-        }
         for (start, i) in self.start.iter_mut().zip(self.islands.particle.iter()).take(self.islands.free) {
             *start = self.velocity.get(*i as usize).copied().unwrap_or([T::ZERO; 3]);
         }

@@ -64,7 +64,7 @@ impl<T: Real, F: Force<T>, S, Z> Integrator<T> for Stepper<KickDrift, T, F, S, Z
         }
         let mut scene = Explicit::new(parts);
         scene.pins(motion, T::ZERO, h);
-        scene.forces(&self.forces, true);
+        scene.forces(&self.forces, most.damping > T::ZERO);
         scene.kick(h);
         scene.drift(h);
         let report = scene.report();

@@ -2,7 +2,7 @@
 //!
 //! q̇½ = q̇ + ½hM⁻¹f(q),  q⁺ = q + hq̇½,  q̇⁺ = q̇½ + ½hM⁻¹f(q⁺).
 //!
-//! With drag or damped springs the drift is cut in two, and between its halves q̇ fades for the time h by the explicit
+//! Where something damps the drift is cut in two, and between its halves q̇ fades for the time h by the explicit
 //! midpoint rule on q̇' = −M⁻¹Dq̇ (Strang's splitting: the order stays 2).
 //!
 //! Order 2. Explicit: no linear system, and a limit, h²λ < 4 and hd < 2, with λ and d of [`Stiffest`], which need no state.
@@ -76,6 +76,7 @@ fn walk<M: Memory<Real = T>, T: Real, F: Force<T>>(
     forces: &F,
     motion: &[Motion<T>],
     (dt, substeps): (T, u32),
+    damped: bool,
     square: Option<T>,
 ) -> Wrong<T> {
     let n = T::from_count(substeps as usize);
@@ -88,7 +89,7 @@ fn walk<M: Memory<Real = T>, T: Real, F: Force<T>>(
             scene.keep_forces();
         }
         scene.kick(half);
-        if F::DRAGS || F::DAMPS {
+        if (F::DRAGS || F::DAMPS) && damped {
             scene.drift(half);
             scene.pins(motion, (T::from_count(k as usize) + T::HALF) / n, dt);
             wrong.energy += scene.fade(forces, h);
@@ -129,7 +130,7 @@ impl<T: Real, F: Force<T>, S, Z> Integrator<T> for Stepper<KickDriftKick, T, F, 
             return Err(StepError::StepLimit(stiffest.particle));
         }
         let mut scene = Explicit::new(parts);
-        walk(&mut scene, &self.forces, motion, (self.dt, substeps), None);
+        walk(&mut scene, &self.forces, motion, (self.dt, substeps), stiffest.damping > T::ZERO, None);
         let report = scene.report();
         scene.commit(motion)?;
         Ok(report)
@@ -160,7 +161,8 @@ impl<T: Real, F: Force<T>, S, Z> Embedded<T> for Stepper<KickDriftKick, T, F, S,
         self.check(parts.network)?;
         let stiffest = stiffest(parts, &mut self.forces, dt);
         let mut scene = Explicit::new(parts.reborrow());
-        let wrong = walk(&mut scene, &self.forces, &[], (dt, SUBSTEPS), Some(stiffest.square));
+        let damped = stiffest.damping > T::ZERO;
+        let wrong = walk(&mut scene, &self.forces, &[], (dt, SUBSTEPS), damped, Some(stiffest.square));
         if !wrong.energy.is_finite() {
             return Err(StepError::NotFinite(stiffest.particle));
         }

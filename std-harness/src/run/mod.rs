@@ -1,6 +1,7 @@
 //! `hooke run`: plan, simulate, record, sum up.
 
 pub mod auto;
+pub mod integrator;
 pub mod outcome;
 pub mod plan;
 pub mod recorder;
@@ -59,10 +60,11 @@ fn run_in<T: Real + Display>(plan: &Plan) -> Result<String, RunError> {
         let report = simulation.step(step);
         let took = began.elapsed();
         match report {
-            Ok(report) => outcome.add(&simulation, &report, took),
+            Ok(reports) => outcome.add(&simulation, &reports, took),
             Err(error) => {
-                let time = plan.dt * (step - 1) as f64;
-                outcome.failure = Some(Failure { step, time, error });
+                let time = simulation.reached().unwrap_or(plan.dt * (step - 1) as f64);
+                let attained = simulation.attained().filter(|_| error == hooke::StepError::Accuracy);
+                outcome.failure = Some(Failure { step, time, error, attained });
                 break;
             }
         }

@@ -27,6 +27,16 @@ pub struct Outcome {
     pub islands: usize,
     /// Time step, s.
     pub dt: f64,
+    /// How the scene was moved on in time.
+    pub integrator: &'static str,
+    /// Why, if that was left to the program.
+    pub integrator_reason: Option<String>,
+    /// Error allowed per step, J; null where the step is fixed.
+    #[serde(rename = "accuracy_J")]
+    pub accuracy_j: Option<f64>,
+    /// Where steps are chosen: how many were rejected, their shortest and longest, s, the largest estimate of a step's error,
+    /// J, and the sum of the estimates of their position errors, m.
+    pub chosen: Option<ChosenSteps>,
     /// How the linear systems were solved.
     pub solver: &'static str,
     /// Why, if that was left to the program.
@@ -91,6 +101,22 @@ pub struct Outcome {
     step_times: Vec<Duration>,
 }
 
+/// What became of steps that were chosen.
+#[derive(Debug, Clone, Copy, Serialize)]
+pub struct ChosenSteps {
+    /// Rejected steps.
+    pub rejected: u64,
+    /// The shortest step taken, s.
+    pub shortest: f64,
+    /// The longest step taken, s.
+    pub longest: f64,
+    /// The largest estimate of a step's error, J.
+    #[serde(rename = "error_J")]
+    pub error_j: f64,
+    /// The sum of all estimates of position errors, m.
+    pub error_m: f64,
+}
+
 /// A step that failed.
 #[derive(Debug, Clone)]
 pub struct Failure {
@@ -100,6 +126,8 @@ pub struct Failure {
     pub time: f64,
     /// Why.
     pub error: StepError,
+    /// If no step was short enough for the accuracy: the least error that was reached, J.
+    pub attained: Option<f64>,
 }
 
 impl Display for Failure {
@@ -108,7 +136,11 @@ impl Display for Failure {
             f,
             "step {} failed at t = {} s: {}; the outputs up to there are kept",
             self.step, self.time, self.error
-        )
+        )?;
+        match self.attained {
+            Some(joules) if joules > 0.0 => write!(f, "; attainable here is about {joules:.1e} J a step"),
+            _ => Ok(()),
+        }
     }
 }
 
@@ -123,6 +155,10 @@ impl Outcome {
             free: simulation.scene.free_particles(),
             islands: simulation.scene.islands(),
             dt: plan.dt,
+            integrator: plan.integrator.name(),
+            integrator_reason: plan.integrator_reason.clone(),
+            accuracy_j: plan.accuracy,
+            chosen: None,
             solver: plan.method.name(),
             solver_reason: plan.reason.clone(),
             steps: 0,
@@ -155,9 +191,21 @@ impl Outcome {
         }
     }
 
-    /// Adds a step.
-    pub fn add<T: Real + Display>(&mut self, simulation: &Simulation<T>, report: &Report<T>, took: Duration) {
+    /// Adds a step, or those that were chosen on the way to the next output.
+    pub fn add<T: Real + Display>(
+        &mut self,
+        simulation: &Simulation<T>,
+        reports: &[Report<T>],
+        took: Duration,
+    ) {
         self.speed_max = self.speed_max.max(simulation.fastest().1);
+        for report in reports {
+            self.count(report);
+            self.step_times.push(took / reports.len() as u32);
+        }
+    }
+
+    fn count<T: Real>(&mut self, report: &Report<T>) {
         self.steps += 1;
         self.iterations += u64::from(report.iterations);
         self.iterations_max = self.iterations_max.max(u64::from(report.iterations));
@@ -173,7 +221,6 @@ impl Outcome {
         self.springs_skipped = report.springs_skipped;
         self.error_bound_j = self.error_bound_j.max(report.upper.to_f64());
         self.error_lower_j = self.error_lower_j.max(report.lower.to_f64());
-        self.step_times.push(took);
     }
 
     /// The end of a run.
@@ -183,7 +230,18 @@ impl Outcome {
         if let Some(median) = self.step_times.get(self.step_times.len() / 2) {
             self.step_ms = median.as_secs_f64() * 1e3;
         }
-        self.energy = simulation.energy(self.steps as f64 * self.dt);
+        let time = simulation.reached().unwrap_or(self.steps as f64 * self.dt);
+        if let Some(steps) = simulation.chosen() {
+            self.dt = if steps.taken > 0 { time / steps.taken as f64 } else { 0.0 };
+            self.chosen = Some(ChosenSteps {
+                rejected: steps.rejected,
+                shortest: steps.shortest,
+                longest: steps.longest,
+                error_j: steps.energy,
+                error_m: steps.distance,
+            });
+        }
+        self.energy = simulation.energy(time);
         self.energy_end = self.energy.total;
         self.momentum_drift = self.momentum_start.map(|start| {
             let now = simulation.momentum();

@@ -9,6 +9,7 @@ use crate::error::InputError;
 use crate::nearest;
 use crate::output::safe;
 use crate::run::auto;
+use crate::run::integrator::{INTEGRATORS, Integrator};
 use crate::run::recorder::FILES;
 use crate::run::solver::{METHODS, Method, in_runs};
 use crate::scene::renumber::Numbering;
@@ -26,8 +27,20 @@ pub struct Plan {
     pub numbering: Option<Numbering>,
     /// Time step, s.
     pub dt: f64,
-    /// Number of steps.
+    /// Number of steps; where steps are chosen, of the moments that are shown, dt apart.
     pub steps: u64,
+    /// How the scene is moved on in time.
+    pub integrator: Integrator,
+    /// Why, if it was left to the program.
+    pub integrator_reason: Option<String>,
+    /// Error allowed per step, J: then steps are chosen.
+    pub accuracy: Option<f64>,
+    /// The step that is tried first, where steps are chosen, s.
+    pub first: f64,
+    /// How long the run is to be, s.
+    pub seconds: f64,
+    /// At most so many substeps a step of Verlet.
+    pub substeps: u32,
     /// Relative tolerance; the kernel's default if none.
     pub tolerance: Option<f64>,
     /// Absolute tolerance, J.
@@ -86,14 +99,20 @@ fn known(what: &str, name: &str, names: &[&str]) -> Result<usize, InputError> {
 impl Plan {
     /// Decides a run from its options.
     pub fn new(args: &RunArgs) -> Result<Self, InputError> {
-        known("integrator", &args.integrator, &["euler"])?;
+        let integrators: Vec<&str> = INTEGRATORS.iter().map(|(name, _)| *name).collect();
+        let integrator = known("integrator", &args.integrator, &integrators)?;
+        let integrator = INTEGRATORS.get(integrator).map_or(Integrator::Euler, |(_, integrator)| *integrator);
         let solvers: Vec<&str> = METHODS.iter().map(|(name, _)| *name).chain(["auto"]).collect();
         let solver = known("solver", &args.solver, &solvers)?;
         let loaded = source::load(args.scene.as_deref().unwrap_or("curtain"))?;
         let (mut model, wanted, inputs) = (loaded.model, loaded.outputs, loaded.files);
         override_model(&mut model, args)?;
 
-        let dt = positive("--dt", args.dt.unwrap_or(model.dt))?;
+        let fps = positive("--fps", args.fps.or(wanted.fps).unwrap_or(60.0))?;
+        let first = positive("--dt", args.dt.unwrap_or(model.dt))?;
+        let accuracy = args.accuracy.map(|joules| positive("--accuracy", joules)).transpose()?;
+        fits(integrator, accuracy, args, &model)?;
+        let dt = if accuracy.is_some() { 1.0 / fps } else { first };
         let steps = match (args.steps, args.seconds) {
             (Some(steps), _) => steps as f64,
             // A hair below a whole number of steps is that number, not one more.
@@ -107,6 +126,7 @@ impl Plan {
             )));
         }
         if let (None, Some(seconds)) = (args.steps, args.seconds)
+            && accuracy.is_none()
             && steps * dt > seconds * (1.0 + 1e-6)
         {
             let end = steps * dt;
@@ -121,7 +141,7 @@ impl Plan {
         let tolerance = args.tolerance.map(|r| not_negative("--tolerance", r)).transpose()?;
         let sleep = args.sleep.map(|joules| not_negative("--sleep", joules)).transpose()?;
         let absolute = not_negative("--absolute", args.absolute.or(args.sleep).unwrap_or(0.0))?;
-        let fps = positive("--fps", args.fps.or(wanted.fps).unwrap_or(60.0))?;
+        let seconds = accuracy.and(args.seconds).unwrap_or(steps * dt);
 
         let (final_csv, json) =
             (args.final_csv.clone().or(wanted.final_csv), args.json.clone().or(wanted.json));
@@ -132,6 +152,12 @@ impl Plan {
             numbering,
             dt,
             steps: steps as u64,
+            integrator,
+            integrator_reason: None,
+            accuracy,
+            first,
+            seconds,
+            substeps: args.substeps.unwrap_or(1),
             tolerance,
             absolute,
             sleep,
@@ -147,7 +173,7 @@ impl Plan {
             quiet: args.quiet,
         };
         if solver == METHODS.len() {
-            let choice = auto::choose(&plan.ordered(), dt, plan.tolerance, plan.precision);
+            let choice = auto::choose(&plan.ordered(), first, plan.tolerance, plan.precision);
             (plan.method, plan.reason) = (choice.method, Some(choice.reason));
         }
         Ok(plan)
@@ -159,6 +185,12 @@ impl Plan {
             Some(numbering) => Cow::Owned(numbering.model(&self.model)),
             None => Cow::Borrowed(&self.model),
         }
+    }
+
+    /// The time after so many steps, s.
+    pub fn time(&self, step: u64) -> f64 {
+        let time = step as f64 * self.dt;
+        if self.accuracy.is_some() && time > self.seconds { self.seconds } else { time }
     }
 
     /// Makes sure that every output can be written, before the first step.
@@ -195,9 +227,48 @@ impl Plan {
 
     /// Is there a frame after this step?
     pub fn is_frame(&self, step: u64) -> bool {
+        if self.accuracy.is_some() {
+            return true;
+        }
         let frames = |step: u64| (step as f64 * self.dt * self.fps + 1e-6).floor();
         step == self.steps || step == 0 || frames(step) > frames(step - 1)
     }
+}
+
+/// Refuses options that do not go together.
+fn fits(
+    integrator: Integrator,
+    accuracy: Option<f64>,
+    args: &RunArgs,
+    model: &Model,
+) -> Result<(), InputError> {
+    let refuse = |message: String| Err(InputError::new(message));
+    let name = integrator.name();
+    if args.sleep.is_some() && integrator != Integrator::Euler {
+        return refuse(format!("--sleep: only with --integrator euler, not with {name}"));
+    }
+    if args.substeps.is_some() && (integrator != Integrator::Verlet || accuracy.is_some()) {
+        return refuse("--substeps: only with --integrator verlet and without --accuracy".into());
+    }
+    if args.substeps == Some(0) {
+        return refuse("--substeps 0: at least 1".into());
+    }
+    if accuracy.is_none() {
+        return Ok(());
+    }
+    if !integrator.is_embedded() {
+        let able: Vec<&str> =
+            INTEGRATORS.iter().filter(|(_, i)| i.is_embedded()).map(|(name, _)| *name).collect();
+        let able = able.join(", ");
+        return refuse(format!("--accuracy: {name} has no estimate of its error; take one of {able}"));
+    }
+    if args.seconds.is_none() {
+        return refuse("--accuracy: say how long with --seconds".into());
+    }
+    if model.moving.iter().any(|moving| !moving.particles.is_empty()) {
+        return refuse("--accuracy: not for scenes with moving pins; take a fixed --dt".into());
+    }
+    Ok(())
 }
 
 /// A path that is the same for all spellings of one file, which need not exist.

@@ -59,7 +59,7 @@ impl<'a> Recorder<'a> {
     /// Records what there is to record after a step.
     pub fn after<T: Real + Display>(&mut self, step: u64, simulation: &Simulation<T>) -> io::Result<()> {
         let Some(open) = &mut self.open else { return Ok(()) };
-        let time = step as f64 * self.plan.dt;
+        let time = self.plan.time(step);
         open.energies.push(simulation.energy(time));
         let (frame, moment) = (self.plan.is_frame(step), open.moments.contains(&step));
         if !frame && !moment {

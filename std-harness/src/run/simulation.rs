@@ -7,10 +7,10 @@ use std::path::Path;
 
 use hooke::force::Coefficients;
 use hooke::{
-    Drag, Force, Gravity, LinearlyImplicitEuler, MassSpring, Motion, Real, Report, SceneIn, Sleeping,
-    SpringDamping, StepError,
+    Drag, Force, Gravity, Made, MassSpring, Motion, Real, Report, SceneIn, Sleeping, SpringDamping, StepError,
 };
 
+use super::integrator::{AnyIntegrator, Integrator, Options};
 use super::plan::Plan;
 use super::solver::AnySolver;
 use crate::error::InputError;
@@ -32,15 +32,15 @@ impl<T: Real> Coefficients<T> for Dampings<T> {
     }
 }
 
-type Forces<T> = ((((), Gravity<T>), Drag<T>), SpringDamping<Dampings<T>>);
-type MaybeSleeping<T> = Option<Sleeping<T, Vec<T>, Vec<u32>>>;
+/// The forces besides the springs'; those that a scene has not are zero.
+pub type Forces<T> = ((((), Gravity<T>), Drag<T>), SpringDamping<Dampings<T>>);
 
 /// A running simulation in precision `T`.
 pub struct Simulation<T: Real> {
     /// The kernel's scene, in the kernel's numbering.
     pub scene: MassSpring<Heap<T>>,
-    euler: LinearlyImplicitEuler<T, Forces<T>, AnySolver<T>, MaybeSleeping<T>>,
-    /// Of the solver's own scratch and of what sleeping remembers
+    integrator: AnyIntegrator<T>,
+    /// Of the solver's and the integrator's own scratch and of what sleeping remembers
     scratch_bytes: usize,
     numbering: Option<Numbering>,
     moving: Vec<Moving>,
@@ -48,6 +48,40 @@ pub struct Simulation<T: Real> {
     origin: Vec<[f64; 3]>,
     motion: Vec<Motion<T>>,
     dt: f64,
+    /// Where a run with chosen steps is, and where it ends
+    chosen: Option<Chosen<T>>,
+}
+
+/// A run whose steps are chosen: the kernel is at `time`, perhaps beyond the moment that is shown.
+struct Chosen<T> {
+    time: f64,
+    end: f64,
+    /// The state at the beginning of the last step, and when
+    before: (f64, Lists<T>),
+    /// The state at its end, while the scene shows a moment within it
+    after: Option<Lists<T>>,
+    /// What became of the steps
+    count: Steps,
+}
+
+/// Positions and velocities.
+type Lists<T> = [Vec<[T; 3]>; 2];
+
+/// What became of steps that were chosen.
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
+pub struct Steps {
+    /// How many were taken.
+    pub taken: u64,
+    /// How many were rejected.
+    pub rejected: u64,
+    /// Shortest and longest of those taken, s.
+    pub shortest: f64,
+    /// The longest, s.
+    pub longest: f64,
+    /// The largest estimate of an error, J.
+    pub energy: f64,
+    /// The sum of all estimates of position errors, m: where they all add up, the run is as far off.
+    pub distance: f64,
 }
 
 /// What f64 can hold and `T` cannot, by the name of the option that says it.
@@ -91,51 +125,71 @@ impl<T: Real + Display> Simulation<T> {
         in_range::<T>(plan)?;
         let model = &*plan.ordered();
         let dampings = Dampings(model.springs.iter().map(|spring| real(spring.damping)).collect());
-        let mut euler = LinearlyImplicitEuler::new(real(plan.dt))
-            .with(Gravity(model.gravity.map(real)))
-            .with(Drag(real(model.drag)))
-            .with(SpringDamping(dampings))
-            .absolute(real(plan.absolute));
-        if let Some(tolerance) = plan.tolerance {
-            euler = euler.tolerance(real(tolerance));
-        }
-        if let Some(max_iterations) = plan.max_iterations {
-            euler = euler.max_iterations(max_iterations);
-        }
+        let gravity = ((), Gravity(model.gravity.map(real)));
+        let forces = ((gravity, Drag(real(model.drag))), SpringDamping(dampings));
         // What the kernel refuses is named as the user names it.
         let mut scene = plan.model.build::<T>()?;
         if plan.numbering.is_some() {
             scene = model.build::<T>()?;
         }
+        // What would fail at the first step fails now, before anything is written.
+        forces
+            .check(model.mass.len(), model.springs.len())
+            .map_err(|e| InputError::new(in_users_ids(e, plan.numbering.as_ref()).to_string()))?;
         let solver = AnySolver::new(plan.method, &mut scene, model);
         let (numbers, words) = match plan.sleep {
             Some(_) => Sleeping::needs(model.mass.len(), model.springs.len()),
             None => (0, 0),
         };
-        let scratch_bytes = solver.bytes() + numbers * size_of::<T>() + words * size_of::<u32>();
+        let vectors = AnyIntegrator::<T>::vectors(plan.integrator, model.mass.len());
+        let scratch_bytes =
+            solver.bytes() + (numbers + 3 * vectors) * size_of::<T>() + words * size_of::<u32>();
         let sleeping =
             plan.sleep.map(|joules| Sleeping::new(real(joules), vec![T::ZERO; numbers], vec![0; words]));
-        let euler = euler.solver(solver).sleeping(sleeping);
-        // What would fail at the first step fails now, before anything is written.
-        euler
-            .forces
-            .check(model.mass.len(), model.springs.len())
-            .map_err(|e| InputError::new(in_users_ids(e, plan.numbering.as_ref()).to_string()))?;
+        let options = Options {
+            dt: real(plan.first),
+            tolerance: plan.tolerance.map(real),
+            absolute: real(plan.absolute),
+            max_iterations: plan.max_iterations,
+            accuracy: plan.accuracy.map(real),
+            particles: model.mass.len(),
+            substeps: plan.substeps,
+        };
+        let mut integrator = AnyIntegrator::new(plan.integrator, &options, forces, solver, sleeping);
+        beyond_the_limit(plan, &mut integrator, &mut scene)?;
         let origin = model.position.clone();
+        let chosen = plan.accuracy.map(|_| Chosen {
+            time: 0.0,
+            end: plan.seconds,
+            before: (0.0, lists(&scene)),
+            after: None,
+            count: Steps::default(),
+        });
         Ok(Self {
             scene,
-            euler,
+            integrator,
             scratch_bytes,
             numbering: plan.numbering.clone(),
             moving: model.moving.clone(),
             origin,
             motion: Vec::new(),
             dt: plan.dt,
+            chosen,
         })
     }
 
-    /// Step number `step`, counted from 1: from (step − 1)·dt to step·dt.
-    pub fn step(&mut self, step: u64) -> Result<Report<T>, StepError> {
+    /// Step number `step`, counted from 1: from (step − 1)·dt to step·dt; where steps are chosen, as many as it takes. Answers
+    /// their reports.
+    pub fn step(&mut self, step: u64) -> Result<Vec<Report<T>>, StepError> {
+        let made = match self.chosen {
+            Some(_) => self.show(step as f64 * self.dt),
+            None => self.fixed(step).map(|report| vec![report]),
+        };
+        made.map_err(|error| in_users_ids(error, self.numbering.as_ref()))
+    }
+
+    /// A step of dt.
+    fn fixed(&mut self, step: u64) -> Result<Report<T>, StepError> {
         let time = step as f64 * self.dt;
         self.motion.clear();
         for moving in &self.moving {
@@ -146,15 +200,65 @@ impl<T: Real + Display> Simulation<T> {
                 self.motion.push(Motion { particle, position, velocity: rate.map(T::from_f64) });
             }
         }
-        let stepped = self.scene.step_moving(&mut self.euler, &self.motion);
-        stepped.map_err(|error| in_users_ids(error, self.numbering.as_ref()))
+        self.integrator.step(&mut self.scene, &self.motion)
+    }
+
+    /// Goes on until the moment is reached, and shows it: within a step by the cubic that has the positions and velocities of
+    /// both its ends.
+    fn show(&mut self, moment: f64) -> Result<Vec<Report<T>>, StepError> {
+        let Some(mut chosen) = self.chosen.take() else { return Ok(Vec::new()) };
+        let moment = if moment < chosen.end { moment } else { chosen.end };
+        let made = self.go_on(&mut chosen, moment);
+        if made.is_ok() && chosen.time > moment {
+            let after = lists(&self.scene);
+            let shown = within(&chosen.before, &(chosen.time, &after), moment);
+            put(&mut self.scene, &shown);
+            chosen.after = Some(after);
+        }
+        self.chosen = Some(chosen);
+        made
+    }
+
+    fn go_on(&mut self, chosen: &mut Chosen<T>, moment: f64) -> Result<Vec<Report<T>>, StepError> {
+        if let Some(after) = chosen.after.take() {
+            put(&mut self.scene, &after);
+        }
+        let mut reports = Vec::new();
+        while chosen.time < moment {
+            let left = chosen.end - chosen.time;
+            let before = (chosen.time, lists(&self.scene));
+            self.integrator.end_after(T::from_f64(left));
+            reports.push(self.integrator.step(&mut self.scene, &[])?);
+            chosen.before = before;
+            let Some((made, _)) = self.integrator.made() else { break };
+            let dt = made.dt.to_f64();
+            // The last step ends at the end, whatever its rounding.
+            chosen.time = if dt >= left * (1.0 - 1e-12) { chosen.end } else { chosen.time + dt };
+            chosen.count.add(dt, &made);
+        }
+        Ok(reports)
+    }
+
+    /// What became of steps that were chosen, if they were.
+    pub fn chosen(&self) -> Option<Steps> {
+        self.chosen.as_ref().map(|chosen| chosen.count)
+    }
+
+    /// When the last step ended that was made, if steps are chosen.
+    pub fn reached(&self) -> Option<f64> {
+        self.chosen.as_ref().map(|chosen| chosen.time)
+    }
+
+    /// After [`StepError::Accuracy`]: the least error of a step, J.
+    pub fn attained(&self) -> Option<f64> {
+        self.integrator.made().map(|(_, attained)| attained.to_f64())
     }
 
     /// Energies at a time, J.
     pub fn energy(&self, time: f64) -> Energy {
         let springs = self.scene.springs();
         let (kinetic, potential) = (springs.kinetic_energy().to_f64(), springs.potential_energy().to_f64());
-        let gravity = self.euler.forces.potential_energy(self.scene.state()).to_f64();
+        let gravity = self.integrator.forces().potential_energy(self.scene.state()).to_f64();
         Energy { time, kinetic, springs: potential, gravity, total: kinetic + potential + gravity }
     }
 
@@ -208,6 +312,71 @@ impl<T: Real + Display> Simulation<T> {
     pub fn write_final(&self, file: &Path) -> io::Result<()> {
         table::write_final(file, &self.positions(), &self.velocities())
     }
+}
+
+impl Steps {
+    fn add<T: Real>(&mut self, dt: f64, made: &Made<T>) {
+        self.shortest = if self.taken == 0 || dt < self.shortest { dt } else { self.shortest };
+        self.longest = if dt > self.longest { dt } else { self.longest };
+        self.taken += 1;
+        self.rejected += u64::from(made.rejections);
+        let (energy, distance) = (made.error.energy.to_f64(), made.error.distance.to_f64());
+        self.energy = if energy > self.energy { energy } else { self.energy };
+        self.distance += distance;
+    }
+}
+
+/// A step beyond the limit of an explicit method is bad input: it is known before the first step.
+fn beyond_the_limit<T: Real>(
+    plan: &Plan,
+    integrator: &mut AnyIntegrator<T>,
+    scene: &mut MassSpring<Heap<T>>,
+) -> Result<(), InputError> {
+    let Some(limit) = integrator.limit(scene).map(T::to_f64) else { return Ok(()) };
+    let most = limit * if plan.substeps > 1 { 0.9 * f64::from(plan.substeps) } else { 1.0 };
+    if plan.accuracy.is_some() || plan.dt < most {
+        return Ok(());
+    }
+    let allow = match plan.integrator {
+        Integrator::Verlet => ", or allow --substeps",
+        _ => "",
+    };
+    Err(InputError::new(format!(
+        "--dt {:?}: beyond the limit of {}, which is {limit:.4e} s for this scene; take less{allow}",
+        plan.dt,
+        plan.integrator.name(),
+    )))
+}
+
+fn lists<T: Real>(scene: &MassSpring<Heap<T>>) -> Lists<T> {
+    [scene.positions().to_vec(), scene.velocities().to_vec()]
+}
+
+/// Puts the free particles where the lists say.
+fn put<T: Real>(scene: &mut MassSpring<Heap<T>>, lists: &Lists<T>) {
+    let [positions, velocities] = lists;
+    for (i, (q, v)) in positions.iter().zip(velocities).enumerate() {
+        if !scene.state().is_pinned(i) {
+            scene.set_position(i, *q).expect("a state of this scene");
+            scene.set_velocity(i, *v).expect("a state of this scene");
+        }
+    }
+}
+
+/// Between two states by Hermite's cubic, whose error is of order 4.
+fn within<T: Real>(before: &(f64, Lists<T>), after: &(f64, &Lists<T>), moment: f64) -> Lists<T> {
+    let h = after.0 - before.0;
+    let s = (moment - before.0) / h;
+    let (left, [q0, v0], [q1, v1]) = (1.0 - s, &before.1, after.1);
+    let at = |i: usize, c: usize| {
+        let [q0, q1, v0, v1] = [q0, q1, v0, v1].map(|list| list[i][c].to_f64());
+        let way = q1 - q0;
+        let q = q0 + s * s * (3.0 - 2.0 * s) * way + h * s * left * (left * v0 - s * v1);
+        let v = 6.0 * s * left * way / h + left * (left - 2.0 * s) * v0 + s * (3.0 * s - 2.0) * v1;
+        [q, v].map(T::from_f64)
+    };
+    let list = |k: usize| (0..q0.len()).map(|i| std::array::from_fn(|c| at(i, c)[k])).collect();
+    [list(0), list(1)]
 }
 
 /// The error with the particle or spring as the user numbers it. (No `_` arm: a new error must be looked at here.)

@@ -59,7 +59,15 @@ pub fn text(plan: &Plan, outcome: &Outcome, recorder: &Recorder<'_>) -> String {
     for note in &plan.model.notes {
         line("note", note.clone());
     }
-    line("method", format!("linearly-implicit Euler, {}, {precision}", plan.method));
+    let method = plan.integrator.title();
+    if plan.integrator.is_explicit() {
+        line("method", format!("{method}, {precision}"));
+    } else {
+        line("method", format!("{method}, {}, {precision}", plan.method));
+    }
+    if let Some(reason) = &plan.integrator_reason {
+        line("", format!("auto took {}: {reason}", plan.integrator.name()));
+    }
     if let Some(reason) = &plan.reason {
         line("", format!("auto took {}: {reason}", plan.method.name()));
     }
@@ -67,7 +75,27 @@ pub fn text(plan: &Plan, outcome: &Outcome, recorder: &Recorder<'_>) -> String {
         line("failed", failure.to_string());
     }
     let made = count(o.steps as usize, "step", "steps");
-    line("time", format!("{made} of {:.4} ms = {:.4} s", o.dt * 1e3, o.dt * o.steps as f64));
+    match &o.chosen {
+        None => line("time", format!("{made} of {:.4} ms = {:.4} s", o.dt * 1e3, o.dt * o.steps as f64)),
+        Some(chosen) => {
+            let (from, to) = (chosen.shortest * 1e3, chosen.longest * 1e3);
+            let rejected = count(chosen.rejected as usize, "other", "others");
+            line(
+                "time",
+                format!(
+                    "{made} of {from:.4} to {to:.4} ms = {:.4} s; {rejected} rejected",
+                    o.dt * o.steps as f64
+                ),
+            );
+            line(
+                "error",
+                format!(
+                    "at most {:.1e} J a step are estimated; all position errors together {:.1e} m",
+                    chosen.error_j, chosen.error_m
+                ),
+            );
+        }
+    }
     if o.steps == 0 {
         return s;
     }
