@@ -57,7 +57,7 @@ pub struct RunArgs {
     pub seconds: Option<f64>,
 
     /// Choose the steps: each may be wrong by so many joules, kinetic and elastic; --dt is then the first to be tried. For
-    /// ros2, ros3 and verlet; needs --seconds
+    /// ros2, ros3, verlet and auto; needs --seconds
     #[arg(long, value_name = "J", allow_negative_numbers = true, help_heading = "Time")]
     pub accuracy: Option<f64>,
     /// Let a step of verlet beyond its limit be made of up to so many substeps [default: 1]
@@ -66,7 +66,7 @@ pub struct RunArgs {
 
     /// Time integration: euler (the lecture's, linearly implicit: robust, damps), midpoint (order 2, no damping, small steps
     /// only), ros2 or ros3 (Rosenbrock methods of order 2 and 3, with an estimate of their error), newton (backward Euler to
-    /// the end: any step), energy-momentum (keeps both), verlet or symplectic-euler (explicit, refused beyond their limit)
+    /// the end: any step), energy-momentum (keeps both), verlet or symplectic-euler (explicit, refused beyond their limit), auto (the one of least work; with --accuracy they compete while it runs)
     #[arg(long, value_name = "NAME", default_value = "euler", help_heading = "Method")]
     pub integrator: String,
     /// Linear solver: jacobi (block-Jacobi PCG), ssor or ilu (fewer iterations, one row after another: meshes), wide (the same in vector registers: cloths, nets, lattices, meshes), multigrid (PCG whose iterations hardly grow with the net), banded (LDLᵀ in the order of the particles: chains, ropes, thin nets), ldl

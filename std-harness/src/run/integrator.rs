@@ -5,6 +5,7 @@ use hooke::{
     Newton, Real, Report, Rosenbrock2, Rosenbrock3, Sleeping, StepError, SymplecticEuler, Verlet,
 };
 
+use super::choice::{Auto, COMPETITORS};
 use super::simulation::Forces;
 use super::solver::AnySolver;
 use crate::heap::Heap;
@@ -28,10 +29,12 @@ pub enum Integrator {
     Verlet,
     /// Symplectic Euler.
     SymplecticEuler,
+    /// Whichever costs least ([`super::choice`]).
+    Auto,
 }
 
 /// What `--integrator` calls them.
-pub const INTEGRATORS: [(&str, Integrator); 8] = [
+pub const INTEGRATORS: [(&str, Integrator); 9] = [
     ("euler", Integrator::Euler),
     ("midpoint", Integrator::Midpoint),
     ("ros2", Integrator::Ros2),
@@ -40,6 +43,7 @@ pub const INTEGRATORS: [(&str, Integrator); 8] = [
     ("energy-momentum", Integrator::EnergyMomentum),
     ("verlet", Integrator::Verlet),
     ("symplectic-euler", Integrator::SymplecticEuler),
+    ("auto", Integrator::Auto),
 ];
 
 impl Integrator {
@@ -59,12 +63,13 @@ impl Integrator {
             Self::EnergyMomentum => "energy-momentum",
             Self::Verlet => "velocity Verlet",
             Self::SymplecticEuler => "symplectic Euler",
+            Self::Auto => "auto",
         }
     }
 
     /// Does it know how wrong a step is, so that `--accuracy` can choose its length?
     pub fn is_embedded(self) -> bool {
-        matches!(self, Self::Ros2 | Self::Ros3 | Self::Verlet)
+        matches!(self, Self::Ros2 | Self::Ros3 | Self::Verlet | Self::Auto)
     }
 
     /// Has it a limit beyond which no step is stable?
@@ -106,6 +111,8 @@ pub enum AnyIntegrator<T: Real> {
     AdaptiveRos3(Adaptive<Ros3<T>, T>),
     /// [`Integrator::Verlet`] with its steps chosen
     AdaptiveVerlet(Adaptive<Verlet<T, Forces<T>>, T>),
+    /// [`Integrator::Auto`]
+    Auto(Box<Auto<T>>),
 }
 
 /// What an integrator is to be made with.
@@ -126,10 +133,11 @@ pub struct Options<T> {
     pub substeps: u32,
 }
 
-/// The same expression for whatever integrator it is.
+/// The same expression for whatever integrator it is, and another for several.
 macro_rules! whichever {
-    ($self:expr, $method:ident => $do:expr) => {
+    ($self:expr, $method:ident => $do:expr, $auto:ident => $of_auto:expr) => {
         match $self {
+            AnyIntegrator::Auto($auto) => $of_auto,
             AnyIntegrator::Euler($method) => $do,
             AnyIntegrator::Midpoint($method) => $do,
             AnyIntegrator::Ros2($method) => $do,
@@ -207,6 +215,10 @@ impl<T: Real> AnyIntegrator<T> {
                 }
             }
             (Integrator::SymplecticEuler, _) => Self::SymplecticEuler(made!(SymplecticEuler::new(dt))),
+            // Several, made one by one: see `Simulation::new`.
+            (Integrator::Auto, _) => {
+                Self::Euler(made!(LinearlyImplicitEuler::new(dt)).solver(solver).sleeping(sleeping))
+            }
         }
     }
 
@@ -217,13 +229,14 @@ impl<T: Real> AnyIntegrator<T> {
             Integrator::Ros3 => Rosenbrock3::<T, ()>::needs(particles),
             Integrator::Newton => Newton::<T, ()>::needs(particles),
             Integrator::EnergyMomentum => EnergyMomentum::<T, ()>::needs(particles),
+            Integrator::Auto => COMPETITORS.into_iter().map(|name| Self::vectors(name, particles)).sum(),
             _ => 0,
         }
     }
 
     /// The forces besides the springs'.
     pub fn forces(&self) -> &Forces<T> {
-        whichever!(self, method => &method.forces)
+        whichever!(self, method => &method.forces, auto => auto.method().forces())
     }
 
     /// One step.
@@ -236,7 +249,7 @@ impl<T: Real> AnyIntegrator<T> {
             Self::AdaptiveRos2(method) => scene.step_moving(method, motion),
             Self::AdaptiveRos3(method) => scene.step_moving(method, motion),
             Self::AdaptiveVerlet(method) => scene.step_moving(method, motion),
-            other => whichever!(other, method => scene.step_moving(method, motion)),
+            other => whichever!(other, method => scene.step_moving(method, motion), auto => auto.step(scene)),
         }
     }
 
@@ -246,6 +259,7 @@ impl<T: Real> AnyIntegrator<T> {
             Self::AdaptiveRos2(method) => method.end_after(seconds),
             Self::AdaptiveRos3(method) => method.end_after(seconds),
             Self::AdaptiveVerlet(method) => method.end_after(seconds),
+            Self::Auto(auto) => auto.end_after(seconds),
             _ => {}
         }
     }
@@ -256,6 +270,25 @@ impl<T: Real> AnyIntegrator<T> {
             Self::AdaptiveRos2(method) => Some((method.made(), method.attained())),
             Self::AdaptiveRos3(method) => Some((method.made(), method.attained())),
             Self::AdaptiveVerlet(method) => Some((method.made(), method.attained())),
+            Self::Auto(auto) => auto.method().made(),
+            _ => None,
+        }
+    }
+
+    /// With chosen steps: how long one may be where the scene is, and what it then costs ([`Adaptive::probe`]).
+    pub fn probe(&mut self, scene: &mut MassSpring<Heap<T>>) -> Option<Result<(T, Report<T>), StepError>> {
+        match self {
+            Self::AdaptiveRos2(method) => Some(method.probe(scene)),
+            Self::AdaptiveRos3(method) => Some(method.probe(scene)),
+            Self::AdaptiveVerlet(method) => Some(method.probe(scene)),
+            _ => None,
+        }
+    }
+
+    /// What was picked and why, if that was left to the program while it runs.
+    pub fn told(&self) -> Option<String> {
+        match self {
+            Self::Auto(auto) => Some(auto.told()),
             _ => None,
         }
     }

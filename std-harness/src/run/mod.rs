@@ -1,6 +1,7 @@
 //! `hooke run`: plan, simulate, record, sum up.
 
 pub mod auto;
+pub mod choice;
 pub mod integrator;
 pub mod outcome;
 pub mod plan;

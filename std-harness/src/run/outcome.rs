@@ -231,6 +231,9 @@ impl Outcome {
             self.step_ms = median.as_secs_f64() * 1e3;
         }
         let time = simulation.reached().unwrap_or(self.steps as f64 * self.dt);
+        if let Some(told) = simulation.told() {
+            self.integrator_reason = Some(told);
+        }
         if let Some(steps) = simulation.chosen() {
             self.dt = if steps.taken > 0 { time / steps.taken as f64 } else { 0.0 };
             self.chosen = Some(ChosenSteps {

@@ -8,10 +8,10 @@ use crate::cli::{Precision, Renumber, RunArgs};
 use crate::error::InputError;
 use crate::nearest;
 use crate::output::safe;
-use crate::run::auto;
 use crate::run::integrator::{INTEGRATORS, Integrator};
 use crate::run::recorder::FILES;
 use crate::run::solver::{METHODS, Method, in_runs};
+use crate::run::{auto, choice};
 use crate::scene::renumber::Numbering;
 use crate::scene::{Model, renumber, source};
 
@@ -172,6 +172,11 @@ impl Plan {
             inputs,
             quiet: args.quiet,
         };
+        if plan.integrator == Integrator::Auto && accuracy.is_none() {
+            let (chosen, substeps, reason) =
+                choice::fixed(&plan.ordered(), first, plan.tolerance, plan.precision);
+            (plan.integrator, plan.substeps, plan.integrator_reason) = (chosen, substeps, Some(reason));
+        }
         if solver == METHODS.len() {
             let choice = auto::choose(&plan.ordered(), first, plan.tolerance, plan.precision);
             (plan.method, plan.reason) = (choice.method, Some(choice.reason));

@@ -10,6 +10,7 @@ use hooke::{
     Drag, Force, Gravity, Made, MassSpring, Motion, Real, Report, SceneIn, Sleeping, SpringDamping, StepError,
 };
 
+use super::choice::{Auto, COMPETITORS, Prices};
 use super::integrator::{AnyIntegrator, Integrator, Options};
 use super::plan::Plan;
 use super::solver::AnySolver;
@@ -142,8 +143,9 @@ impl<T: Real + Display> Simulation<T> {
             None => (0, 0),
         };
         let vectors = AnyIntegrator::<T>::vectors(plan.integrator, model.mass.len());
+        let solvers = if plan.integrator == Integrator::Auto { COMPETITORS.len() } else { 1 };
         let scratch_bytes =
-            solver.bytes() + (numbers + 3 * vectors) * size_of::<T>() + words * size_of::<u32>();
+            solvers * solver.bytes() + (numbers + 3 * vectors) * size_of::<T>() + words * size_of::<u32>();
         let sleeping =
             plan.sleep.map(|joules| Sleeping::new(real(joules), vec![T::ZERO; numbers], vec![0; words]));
         let options = Options {
@@ -155,7 +157,16 @@ impl<T: Real + Display> Simulation<T> {
             particles: model.mass.len(),
             substeps: plan.substeps,
         };
-        let mut integrator = AnyIntegrator::new(plan.integrator, &options, forces, solver, sleeping);
+        let mut integrator = if plan.integrator == Integrator::Auto {
+            let member = |name| {
+                (name, AnyIntegrator::new(name, &options, forces.clone(), solver.clone(), sleeping.clone()))
+            };
+            let (tolerance, precision) = (plan.tolerance, plan.precision);
+            let prices = Prices::new(model, plan.first, tolerance, precision, plan.method);
+            AnyIntegrator::Auto(Box::new(Auto::new(COMPETITORS.map(member).into(), prices)))
+        } else {
+            AnyIntegrator::new(plan.integrator, &options, forces, solver, sleeping)
+        };
         beyond_the_limit(plan, &mut integrator, &mut scene)?;
         let origin = model.position.clone();
         let chosen = plan.accuracy.map(|_| Chosen {
@@ -247,6 +258,11 @@ impl<T: Real + Display> Simulation<T> {
     /// When the last step ended that was made, if steps are chosen.
     pub fn reached(&self) -> Option<f64> {
         self.chosen.as_ref().map(|chosen| chosen.time)
+    }
+
+    /// What was picked and why, if that was left to the program while it runs.
+    pub fn told(&self) -> Option<String> {
+        self.integrator.told()
     }
 
     /// After [`StepError::Accuracy`]: the least error of a step, J.

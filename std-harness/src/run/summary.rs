@@ -2,6 +2,7 @@
 
 use std::fmt::Write;
 
+use super::integrator::Integrator;
 use super::outcome::Outcome;
 use super::plan::Plan;
 use super::recorder::Recorder;
@@ -65,8 +66,11 @@ pub fn text(plan: &Plan, outcome: &Outcome, recorder: &Recorder<'_>) -> String {
     } else {
         line("method", format!("{method}, {}, {precision}", plan.method));
     }
-    if let Some(reason) = &plan.integrator_reason {
-        line("", format!("auto took {}: {reason}", plan.integrator.name()));
+    if let Some(reason) = &o.integrator_reason {
+        match plan.integrator {
+            Integrator::Auto => line("", reason.clone()),
+            name => line("", format!("auto took {}: {reason}", name.name())),
+        }
     }
     if let Some(reason) = &plan.reason {
         line("", format!("auto took {}: {reason}", plan.method.name()));
