@@ -7,6 +7,7 @@ use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 
 use crate::error::InputError;
 use crate::nearest;
+use crate::run::rest::RestArgs;
 use crate::scene::PinRule;
 
 /// Simulate mass-spring systems, with an error bound on every linear solve.
@@ -26,6 +27,8 @@ pub enum Command {
     /// Simulate a scene: a name, a mesh file or a scene .toml (default: curtain)
     #[command(after_help = scenes())]
     Run(Box<RunArgs>),
+    /// Find where a scene comes to rest under its forces
+    Rest(Box<RestArgs>),
     /// Say what is in a mesh file
     Info(InfoArgs),
 }
@@ -110,6 +113,10 @@ pub struct RunArgs {
     #[arg(long, value_name = "RULE", value_parser = pin_rule, help_heading = "Overrides of the scene")]
     pub pin: Option<PinRule>,
 
+    /// Begin with the positions and velocities of this file, which --final of a run, or hooke rest, has written
+    #[arg(long, value_name = "FILE", help_heading = "Overrides of the scene")]
+    pub from: Option<PathBuf>,
+
     /// Folder for ParaView frames, energy plot and picture [default: out, unless --final or --json is given]
     #[arg(long, value_name = "DIR", help_heading = "Output")]
     pub out: Option<PathBuf>,
@@ -148,7 +155,7 @@ pub enum Renumber {
 }
 
 /// Three numbers, `X,Y,Z`.
-fn triple(text: &str) -> Result<[f64; 3], String> {
+pub(crate) fn triple(text: &str) -> Result<[f64; 3], String> {
     let parts: Vec<&str> = text.split(',').map(str::trim).collect();
     let [x, y, z] = parts.as_slice() else { return Err("expected three numbers, as in 0,-9.81,0".into()) };
     let number = |part: &str| match part.parse::<f64>() {
@@ -158,7 +165,7 @@ fn triple(text: &str) -> Result<[f64; 3], String> {
     Ok([number(x)?, number(y)?, number(z)?])
 }
 
-fn pin_rule(text: &str) -> Result<PinRule, String> {
+pub(crate) fn pin_rule(text: &str) -> Result<PinRule, String> {
     text.parse().map_err(|error: InputError| error.message)
 }
 

@@ -6,7 +6,7 @@ use std::process::ExitCode;
 use hooke_harness::cli::{self, Command};
 use hooke_harness::error::InputError;
 use hooke_harness::mesh;
-use hooke_harness::run::{self, RunError};
+use hooke_harness::run::{self, RunError, rest};
 
 fn main() -> ExitCode {
     let arguments: Result<Vec<String>, _> = std::env::args_os().map(|a| a.into_string()).collect();
@@ -24,6 +24,11 @@ fn main() -> ExitCode {
     };
     match command {
         Command::Run(args) => match run::run(&args) {
+            Ok(summary) => said(&summary),
+            Err(RunError::Input(error)) => refused(&error),
+            Err(RunError::Failed(message)) => complained(&message, 1),
+        },
+        Command::Rest(args) => match rest::rest(&args) {
             Ok(summary) => said(&summary),
             Err(RunError::Input(error)) => refused(&error),
             Err(RunError::Failed(message)) => complained(&message, 1),

@@ -253,6 +253,11 @@ impl<T: Real> AnyIntegrator<T> {
         }
     }
 
+    /// Another step, s.
+    pub fn set_dt(&mut self, dt: T) {
+        whichever!(self, method => method.set_dt(dt), _auto => {});
+    }
+
     /// With chosen steps: the next one takes at most so many seconds.
     pub fn end_after(&mut self, seconds: T) {
         match self {

@@ -6,6 +6,7 @@ pub mod integrator;
 pub mod outcome;
 pub mod plan;
 pub mod recorder;
+pub mod rest;
 pub mod simulation;
 pub mod solver;
 pub mod structure;

@@ -13,7 +13,7 @@ use crate::run::recorder::FILES;
 use crate::run::solver::{METHODS, Method, in_runs};
 use crate::run::{auto, choice};
 use crate::scene::renumber::Numbering;
-use crate::scene::{Model, renumber, source};
+use crate::scene::{Model, renumber, source, start};
 
 /// The most steps a run may have.
 const MOST_STEPS: f64 = 1e9;
@@ -105,7 +105,11 @@ impl Plan {
         let solvers: Vec<&str> = METHODS.iter().map(|(name, _)| *name).chain(["auto"]).collect();
         let solver = known("solver", &args.solver, &solvers)?;
         let loaded = source::load(args.scene.as_deref().unwrap_or("curtain"))?;
-        let (mut model, wanted, inputs) = (loaded.model, loaded.outputs, loaded.files);
+        let (mut model, wanted, mut inputs) = (loaded.model, loaded.outputs, loaded.files);
+        if let Some(file) = &args.from {
+            start::from_file(&mut model, file)?;
+            inputs.push(file.clone());
+        }
         override_model(&mut model, args)?;
 
         let fps = positive("--fps", args.fps.or(wanted.fps).unwrap_or(60.0))?;
@@ -214,7 +218,7 @@ impl Plan {
     /// Refuses two outputs in one file, and an output in the place of an input.
     fn no_output_takes_anothers_place(&self, files: &[&Path]) -> Result<(), InputError> {
         let mut taken: Vec<(PathBuf, &str)> =
-            self.inputs.iter().map(|input| (resolved(input), "the scene is read from this file")).collect();
+            self.inputs.iter().map(|input| (resolved(input), "the run reads this file")).collect();
         let own = self.out.iter().flat_map(|dir| FILES.map(|name| dir.join(name)));
         taken.extend(own.map(|file| (resolved(&file), "--out writes this file itself")));
         for file in files {

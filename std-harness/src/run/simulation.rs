@@ -7,7 +7,8 @@ use std::path::Path;
 
 use hooke::force::Coefficients;
 use hooke::{
-    Drag, Force, Gravity, Made, MassSpring, Motion, Real, Report, SceneIn, Sleeping, SpringDamping, StepError,
+    Drag, Force, Gravity, LinearlyImplicitEuler, Made, MassSpring, Motion, Real, Report, SceneIn, Sleeping,
+    SpringDamping, StepError,
 };
 
 use super::choice::{Auto, COMPETITORS, Prices};
@@ -248,6 +249,43 @@ impl<T: Real + Display> Simulation<T> {
             chosen.count.add(dt, &made);
         }
         Ok(reports)
+    }
+
+    /// Every free particle stands still.
+    pub fn stop(&mut self) {
+        for i in 0..self.scene.positions().len() {
+            if !self.scene.state().is_pinned(i) {
+                self.scene.set_velocity(i, [T::ZERO; 3]).expect("a free particle of this scene");
+            }
+        }
+    }
+
+    /// A step of so many seconds.
+    pub fn relax(&mut self, dt: f64) -> Result<Report<T>, StepError> {
+        self.integrator.set_dt(T::from_f64(dt));
+        let report = self.integrator.step(&mut self.scene, &[]);
+        report.map_err(|error| in_users_ids(error, self.numbering.as_ref()))
+    }
+
+    /// The largest force on a free particle, N, and on which, if all stood still.
+    pub fn left(&mut self) -> (usize, f64) {
+        let ((((), gravity), drag), damping) = self.integrator.forces().clone();
+        // With h = 1 and q̇ = 0 the right side of the lecture's step is f.
+        let mut euler = LinearlyImplicitEuler::new(T::ONE).with(gravity).with(drag).with(damping);
+        let mut most = (0, 0.0);
+        let moving = lists(&self.scene);
+        self.stop();
+        let parts = self.scene.parts();
+        let _ = euler.inspect(parts, &[], |system, f, _| {
+            for (row, f) in f.iter().enumerate() {
+                let size = f.iter().map(|x| x.to_f64().powi(2)).sum::<f64>().sqrt();
+                if size > most.1 {
+                    most = (system.particle(row).unwrap_or(0), size);
+                }
+            }
+        });
+        put(&mut self.scene, &moving);
+        (self.users_particle(most.0), most.1)
     }
 
     /// What became of steps that were chosen, if they were.

@@ -104,30 +104,32 @@ pub fn text(plan: &Plan, outcome: &Outcome, recorder: &Recorder<'_>) -> String {
         return s;
     }
     line("took", format!("{:.2} s; {:.3} ms a step (median)", o.wall_s, o.step_ms));
-    line(
-        "solves",
-        format!(
-            "{:.1} iterations a step, at most {}",
-            o.iterations as f64 / steps,
-            grouped(o.iterations_max)
-        ),
-    );
-    line(
-        "",
-        format!(
-            "the worst is off by an energy between {:.1e} and {:.1e} J",
-            o.error_lower_j, o.error_bound_j
-        ),
-    );
-    let certified = o.steps - o.uncertified_steps;
-    let clamped = match o.clamped {
-        0 => "nothing clamped".into(),
-        n => format!("{} clamped in the others", count(n as usize, "spring", "springs")),
-    };
-    line(
-        "projection",
-        format!("{} of {} steps certified to need none; {clamped}", grouped(certified), grouped(o.steps)),
-    );
+    if !plan.integrator.is_explicit() {
+        line(
+            "solves",
+            format!(
+                "{:.1} iterations a step, at most {}",
+                o.iterations as f64 / steps,
+                grouped(o.iterations_max)
+            ),
+        );
+        line(
+            "",
+            format!(
+                "the worst is off by an energy between {:.1e} and {:.1e} J",
+                o.error_lower_j, o.error_bound_j
+            ),
+        );
+        let certified = o.steps - o.uncertified_steps;
+        let clamped = match o.clamped {
+            0 => "nothing clamped".into(),
+            n => format!("{} clamped in the others", count(n as usize, "spring", "springs")),
+        };
+        line(
+            "projection",
+            format!("{} of {} steps certified to need none; {clamped}", grouped(certified), grouped(o.steps)),
+        );
+    }
     let mut skipped = Vec::new();
     if o.untouched_islands > 0 {
         let solves = count(o.untouched_islands as usize, "island solve", "island solves");

@@ -8,6 +8,7 @@ pub mod motion;
 pub mod pins;
 pub mod renumber;
 pub mod source;
+pub mod start;
 pub mod toml;
 
 pub use motion::{Moving, Path};
