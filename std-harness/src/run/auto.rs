@@ -59,11 +59,9 @@ pub struct Weights {
     pub ldl32: [f64; 3],
 }
 
-/// Taken by the command above on one core of an AMD EPYC with AVX-512. On the 13 scenes of its grid that keep their numbering,
-/// 2 steps and 3 tolerances, auto takes the fastest solver in 64 of 78 cases, at worst one that takes 1.33 times as long, and
-/// 1.02 times on average. `loose` is the same command's on two tetrahedral meshes instead: a shuffled grid flatters multigrid.
-/// Taken before sparse factors ran in tiles and chains in lanes, so `ldl`, `chain` are dearer here than they are; `ldl32` has
-/// `ldl`'s, and is taken by name only.
+/// Taken by the command above on one core of an AMD EPYC with AVX-512, from the 17 scenes of its grid, 2 steps and 3 tolerances.
+/// Before they were taken auto had the fastest solver in 80 of 102 cases, at worst one that took 1.78 times as long, and 1.06
+/// times on average.
 pub const WEIGHTS: Weights = Weights {
     jacobi: Iterative { iterations: 0.314, setup: 41.27, iteration: 4.99 },
     wide: Iterative { iterations: 0.319, setup: 31.03, iteration: 2.15 },
@@ -226,17 +224,17 @@ mod tests {
             ("cloth:16", 0.001, ["wide", "wide", "wide"]),
             ("cloth:16", 1.0 / 60.0, ["multigrid", "banded", "banded"]),
             ("cloth:32", 0.001, ["wide", "wide", "wide"]),
-            ("cloth:32", 1.0 / 60.0, ["multigrid", "ldl", "ldl"]),
-            ("cloth:64", 0.001, ["wide", "wide", "wide"]),
-            ("cloth:64", 1.0 / 60.0, ["multigrid", "multigrid", "ldl"]),
+            ("cloth:32", 1.0 / 60.0, ["multigrid", "ldl32", "ldl32"]),
+            ("cloth:64", 0.001, ["wide", "multigrid", "multigrid"]),
+            ("cloth:64", 1.0 / 60.0, ["multigrid", "ldl32", "ldl32"]),
             ("cloth:128", 0.001, ["multigrid", "multigrid", "multigrid"]),
-            ("cloth:128", 1.0 / 60.0, ["multigrid", "multigrid", "multigrid"]),
-            ("net:32", 0.001, ["multigrid", "ldl", "ldl"]),
-            ("net:32", 1.0 / 60.0, ["multigrid", "ldl", "ldl"]),
+            ("cloth:128", 1.0 / 60.0, ["multigrid", "ldl32", "ldl32"]),
+            ("net:32", 0.001, ["multigrid", "ldl32", "ldl32"]),
+            ("net:32", 1.0 / 60.0, ["multigrid", "ldl32", "ldl32"]),
             ("syrup:32", 0.001, ["wide", "wide", "wide"]),
-            ("syrup:32", 1.0 / 60.0, ["multigrid", "ldl", "ldl"]),
+            ("syrup:32", 1.0 / 60.0, ["multigrid", "ldl32", "ldl32"]),
             ("curtain", 0.001, ["wide", "wide", "wide"]),
-            ("curtain", 1.0 / 60.0, ["multigrid", "multigrid", "multigrid"]),
+            ("curtain", 1.0 / 60.0, ["multigrid", "multigrid", "ldl32"]),
             ("chain:40", 0.001, ["banded", "banded", "banded"]),
             ("chain:40", 1.0 / 60.0, ["banded", "banded", "banded"]),
             ("chain:1000", 0.001, ["banded", "banded", "banded"]),
@@ -245,8 +243,8 @@ mod tests {
             ("lattice:8x8x8", 1.0 / 60.0, ["wide", "wide", "wide"]),
             ("spring", 0.001, ["banded", "banded", "banded"]),
             ("spring", 1.0 / 60.0, ["banded", "banded", "banded"]),
-            ("pair", 0.001, ["banded", "banded", "banded"]),
-            ("pair", 1.0 / 60.0, ["banded", "banded", "banded"]),
+            ("pair", 0.001, ["wide", "banded", "banded"]),
+            ("pair", 1.0 / 60.0, ["wide", "banded", "banded"]),
         ];
         let wrong: Vec<String> = table
             .iter()
@@ -266,7 +264,7 @@ mod tests {
     }
 
     #[test]
-    fn what_a_solver_cannot_do_is_said() {
+    fn a_net_without_runs_gets_lanes_over_slots_and_no_factor_without_an_order() {
         let mut model = Model::at_rest("", (0..61).map(|i| [i as f64, 0.0, 0.0]).collect(), 1.0);
         for i in 0..61 {
             for j in [i * i % 61, (i * i * i + 1) % 61].into_iter().filter(|j| *j != i) {
@@ -274,12 +272,8 @@ mod tests {
             }
         }
         let choice = choose(&model, 0.01, None, Precision::F64);
-        assert!(
-            choice.reason.ends_with("; wide cannot: its springs lie in no runs, and slots have no weights"),
-            "{}",
-            choice.reason
-        );
-        assert_ne!(choice.method, Method::Wide);
+        assert!(!choice.reason.contains("cannot"), "{}", choice.reason);
+        assert_eq!(choice.method, Method::Wide);
         let case = Case { fill: None, ..Case::new(&model, 0.01, None, Precision::F64) };
         assert!(case.work(Method::Ldl).is_err() && case.work(Method::Jacobi).is_ok());
     }
