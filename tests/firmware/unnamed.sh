@@ -1,7 +1,7 @@
 # shellcheck shell=bash
 # A feature that a program does not name costs it nothing: the minimal program is the same, byte for byte, when core has
 # no trace of drag, spring damping, point forces, point springs, cables, snapshots, reactions, energies, momenta, the
-# stiffness matrix, sleeping, the direct solvers, and SSOR and D-ILU; and the same functions without any solver but its own.
+# stiffness matrix, sleeping, the other integrators, the direct solvers, and SSOR and D-ILU; and the same functions without any solver but its own.
 # Sourced by check.sh.
 
 # Takes the features out of a copy of core's sources.
@@ -21,6 +21,10 @@ without_features() {
     sed -i -E '/^(pub )?(mod|use) (block_ilu|eisenstat|ssor|triangle)\b/d' "$source/solver/mod.rs"
     sed -i -E '/^pub use solver::\{BlockIlu/d' "$source/lib.rs"
     sed -i -E 's/^(pub use solver::).*$/\1{BlockJacobi, Jacobi, Multigrid, Preconditioner, Solver, Stop};/' "$source/lib.rs"
+    rm "$source"/integrator/{adaptive,embedded,energy_momentum,explicit,midpoint,newton,ros2,ros3,rosenbrock,stage,symplectic_euler,trial,verlet}.rs
+    sed -i -E '/^(pub )?(mod|use) (adaptive|embedded|energy_momentum|explicit|midpoint|newton|ros2|ros3|rosenbrock|stage|symplectic_euler|trial|verlet)\b/d' "$source/integrator/mod.rs"
+    sed -i -E '/^pub use integrator::/d' "$source/lib.rs"
+    echo 'pub use integrator::{Integrator, LinearizedOnce, LinearlyImplicitEuler, Stepper};' >>"$source/lib.rs"
     rm "$source"/sleeping/{asleep,pattern,rest}.rs
     sed -i -E '/^(pub )?(mod|use) (asleep|pattern|rest)\b/d' "$source/sleeping/mod.rs"
     sed -i -E 's/^(pub use sleeping::).*$/\1{Awake, Sleep};/' "$source/lib.rs"

@@ -16,7 +16,7 @@ use crate::lanes::Lanes;
 use crate::parts::Vectors;
 use crate::real::{Real, larger};
 use crate::report::{Ending, Solve};
-use crate::solver::{Jacobi, Problem, Stop, pcg};
+use crate::solver::{Jacobi, Problem, Stop, invert, pcg};
 use crate::system::System;
 use crate::vec3::{self, Vec3};
 
@@ -148,13 +148,6 @@ pub(crate) fn solve<T: Real, F: Force<T>, D: Factors<T>>(
     let upper = bound::upper(v.r, v.p, v.mu);
     let lower = lower(&system, v.r, v.p, v.b);
     Solve { iterations, upper, lower, ending, fallback: false }
-}
-
-/// μ → 1/μ
-pub(crate) fn invert<T: Real>(mu: &mut [T]) {
-    for mu in mu.iter_mut() {
-        *mu = T::ONE / *mu;
-    }
 }
 
 /// y = r. The sum is not taken for a copy, for which a library routine would be linked.

@@ -67,6 +67,13 @@ pub struct Answer<T> {
     pub(crate) solve: Solve<T>,
 }
 
+/// μ → 1/μ
+pub(crate) fn invert<T: Real>(mu: &mut [T]) {
+    for mu in mu.iter_mut() {
+        *mu = T::ONE / *mu;
+    }
+}
+
 /// A method for A x = b.
 pub trait Solver<T: Real> {
     /// A step begins, whose islands are about to come in their order; those that need no solve do not.
@@ -117,7 +124,7 @@ pub trait Solver<T: Real> {
         stop: &Stop<T>,
     ) -> Result<Solve<T>, StepError> {
         self.repeat();
-        direct::invert(problem.vectors.mu);
+        invert(problem.vectors.mu);
         self.solve(problem, stop)
     }
 }
