@@ -89,3 +89,15 @@ pub const TRIANGULAR: f64 = 64.0;
 /// A dense block pivot, in units of u·max|A|: each of up to 12 earlier rows takes away less than max|A|
 /// with 8 roundings (derived; an earlier pivot's own error is passed on shrunk).
 pub const PIVOT: f64 = 100.0;
+/// Free fall by a Rosenbrock method, units of u·n·(|x| + |v|t) after n steps: the products of a step with their coefficients, up
+/// to 18·γ of q̇ and 9 of u̇, lose 2u each, and their sums 4u (derived: below 32).
+pub const FREE_FALL: f64 = 32.0;
+/// A pair that rotates, in units of u a step, relative to radius and speed: (measured: MARK, fourfold).
+pub const ROTATING: f64 = 1e3;
+/// A coefficient of a Rosenbrock method made anew, units of u: products and sums of published numbers below 6, each rounded at
+/// u, up to 4 deep (derived: below 64).
+pub const COEFFICIENT: f64 = 64.0;
+/// Linear momentum of a free island over one step of any method, units of u·(Σm|v| before and after + Σ impulses of the springs).
+pub const MOMENTUM_OF_METHODS: f64 = 64.0;
+/// Angular momentum about the origin, units of u·(Σm|x||v| before and after + Σ impulses of the springs).
+pub const ANGULAR_MOMENTUM: f64 = 64.0;

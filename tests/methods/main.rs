@@ -1,0 +1,12 @@
+//! Methods of time integration: exact identities, what they keep, their limits, and their orders.
+
+// Indices are those of the formulas.
+#![allow(clippy::needless_range_loop)]
+
+mod closed_forms;
+mod coefficients;
+mod conservation;
+mod error_control;
+mod every_method;
+mod minimization;
+mod step_limits;
