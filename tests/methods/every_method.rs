@@ -217,7 +217,7 @@ fn every_error_of_a_step_leaves_no_trace_under_every_method() {
         let push = |f| PointForce { particle: free, force: [f, 0.0, 0.0] };
         refused(method, good, push(f64::NAN), &[], |e| e == StepError::Force(free));
         // Finite, and too large to move by; explicit and implicit methods find the particle, Newton's the island.
-        refused(method, good, push(f64::MAX), &[], |e| {
+        refused(method, good, (push(f64::MAX), push(f64::MAX)), &[], |e| {
             matches!(e, StepError::NotFinite(_) | StepError::NotConverged(_))
         });
         refused(method, good, (), &[at(free, [0.0; 3])], |e| e == StepError::NotPinned(free));

@@ -62,7 +62,7 @@ impl<T: Real> Stepper<Minimized<()>, T> {
 }
 
 /// No more iterations than these, nor halvings of one.
-const ITERATIONS: u32 = 50;
+const ITERATIONS: u32 = 2000;
 const HALVINGS: u32 = 40;
 
 /// How far an island's iteration has come.
@@ -162,6 +162,9 @@ impl<T: Real, F: Force<T>, S: Solver<T>, W: AsMut<[Vec3<T>]>, Z> Integrator<T>
                 way.solve = merge(Some(way.solve), self.solver.solve(problem, &loose(&self.stop))?);
                 // bᵀΔ: x is A's own answer to b in the space it lies in, so this is ΔᵀAΔ.
                 let slope = System { matrix, forces: &self.forces, points }.form(vectors.x);
+                if !(slope > T::ZERO) && way.solve.ending == Ending::Capped {
+                    return Err(stuck); // A solver that may not iterate finds nothing.
+                }
                 // v stays in y while the search moves.
                 for (y, i) in vectors.y.iter_mut().zip(matrix.rows.particles()) {
                     *y = here.velocity.get(i).copied().unwrap_or([T::ZERO; 3]);
