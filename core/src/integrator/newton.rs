@@ -11,7 +11,7 @@
 //! Order 1; stable at any h on any scene, whatever springs are compressed; damps as [`crate::LinearlyImplicitEuler`] does. Keeps
 //! linear momentum to the tolerance on islands that nothing holds. Use it where a large step must not fail, and to find what a
 //! scene rests in. It ends where ½bᵀdiag(μ)⁻¹b, b = −∂E/∂v, is at most R² of what it was at v = 0, or at most the absolute
-//! tolerance, or where rounding ends it; after 50 iterations with [`StepError::NotConverged`]. Cost: a few assemblies and
+//! tolerance, or where rounding ends it; after 200 iterations with [`StepError::NotConverged`]. Cost: a few assemblies and
 //! solves, and passes over the springs (one root each) for E. Memory: 2 vectors per particle.
 //!
 //! Source: Gast, Schroeder, Stomakhin, Jiang & Teran 2015, *Optimization integrator for large time steps*; Nocedal & Wright,
@@ -62,7 +62,7 @@ impl<T: Real> Stepper<Minimized<()>, T> {
 }
 
 /// No more iterations than these, nor halvings of one.
-const ITERATIONS: u32 = 2000;
+const ITERATIONS: u32 = 200;
 const HALVINGS: u32 = 40;
 
 /// How far an island's iteration has come.
