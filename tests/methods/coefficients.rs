@@ -9,11 +9,12 @@ use nalgebra::{DMatrix, RowDVector};
 
 /// A Rosenbrock method as it is published.
 pub struct Published {
-    gamma: f64,
+    pub gamma: f64,
     /// Below the diagonal
-    alpha: Vec<Vec<f64>>,
+    pub alpha: Vec<Vec<f64>>,
     /// Below the diagonal
-    gammas: Vec<Vec<f64>>,
+    pub gammas: Vec<Vec<f64>>,
+    /// b
     pub b: Vec<f64>,
     lower: Vec<f64>,
 }
@@ -60,7 +61,7 @@ pub fn ros34pw2() -> Published {
 }
 
 /// Verwer et al. 1999: Wk₁ = F(y), Wk₂ = F(y + hk₁) − 2k₁ with k₂ + 2k₁ as second stage is α₂₁ = 1, γ₂₁ = −2γ, b = (½, ½).
-fn ros2() -> Published {
+pub fn ros2() -> Published {
     let gamma = 1.0 - 0.5f64.sqrt();
     Published {
         gamma,

@@ -6,7 +6,9 @@
 mod closed_forms;
 mod coefficients;
 mod conservation;
+mod dense_step;
 mod error_control;
 mod every_method;
 mod minimization;
+mod orders;
 mod step_limits;
