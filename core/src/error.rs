@@ -121,10 +121,16 @@ impl fmt::Display for StepError {
                 write!(f, "dt is beyond the limit of an explicit method, which particle {i} sets")
             }
             Self::NotConverged(i) => {
-                write!(f, "Newton's iterations did not converge on the island of particle {i}: take a shorter step")
+                write!(
+                    f,
+                    "Newton's iterations did not converge on the island of particle {i}: take a shorter step"
+                )
             }
             Self::Accuracy => {
-                write!(f, "no step is short enough for this accuracy: ask for less, or for a higher precision")
+                write!(
+                    f,
+                    "no step is short enough for this accuracy: ask for less, or for a higher precision"
+                )
             }
             Self::Workspace { numbers, words } => {
                 write!(f, "the workspace is too small: give it {numbers} numbers and {words} words")

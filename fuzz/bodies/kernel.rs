@@ -2,8 +2,8 @@
 //! pins stay where they are, and a step's bounds are in order.
 
 use hooke::{
-    Adaptive, Drag, EnergyMomentum, Fixed, LinearlyImplicitEuler, Midpoint, Mixed, Newton, PointSpring, Rosenbrock2,
-    Rosenbrock3, Scene, Snapshot, Spring, SymplecticEuler, Verlet,
+    Adaptive, Drag, EnergyMomentum, Fixed, LinearlyImplicitEuler, Midpoint, Mixed, Newton, PointSpring,
+    Rosenbrock2, Rosenbrock3, Scene, Snapshot, Spring, SymplecticEuler, Verlet,
 };
 
 type S = Scene<f32, 12, 24, Mixed>;

@@ -4,8 +4,8 @@ use hooke::{IslandReport, LinearlyImplicitEuler, Real};
 use hooke_tests::build::{self, Forces};
 use hooke_tests::data::SceneData;
 use hooke_tests::generate;
-use hooke_tests::side_by_side::side_by_side;
 use hooke_tests::random::Random;
+use hooke_tests::side_by_side::side_by_side;
 use hooke_tests::vec_memory::VecScene;
 
 fn alone_and_beside<T: Real>(seed: u64) {

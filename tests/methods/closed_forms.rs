@@ -109,9 +109,14 @@ fn falls(method: Method, theta: f64, allowed: impl Fn(f64, f64) -> f64) {
 
 #[test]
 fn free_fall_is_the_closed_form_of_each_theta_bit_for_bit() {
-    for (method, theta) in
-        [(Euler, 1.0), (Newton, 1.0), (SymplecticEuler, 1.0), (Midpoint, 0.5), (EnergyMomentum, 0.5), (Verlet, 0.5)]
-    {
+    for (method, theta) in [
+        (Euler, 1.0),
+        (Newton, 1.0),
+        (SymplecticEuler, 1.0),
+        (Midpoint, 0.5),
+        (EnergyMomentum, 0.5),
+        (Verlet, 0.5),
+    ] {
         falls(method, theta, |_, _| 0.0);
     }
 }

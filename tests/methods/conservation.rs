@@ -63,7 +63,8 @@ fn linear_momentum_of_a_free_island_is_kept_to_rounding_by_every_method_however_
 }
 
 #[test]
-fn angular_momentum_is_kept_to_rounding_by_verlet_and_symplectic_euler_and_to_its_tolerance_by_energy_momentum() {
+fn angular_momentum_is_kept_to_rounding_by_verlet_and_symplectic_euler_and_to_its_tolerance_by_energy_momentum()
+ {
     for method in [Verlet, SymplecticEuler, EnergyMomentum] {
         let mut largest = 0.0f64;
         for seed in 0..20 {
@@ -93,7 +94,10 @@ fn implicit_methods_that_do_not_claim_it_lose_angular_momentum() {
         let [_, (before, size)] = momenta(&scene);
         method.step(&mut scene, options(h, 1e-14), (), &[]).unwrap();
         let [_, (after, _)] = momenta(&scene);
-        assert!((after - before).norm() > 1e-9 * size, "{method:?}: the measure of the test above would see nothing");
+        assert!(
+            (after - before).norm() > 1e-9 * size,
+            "{method:?}: the measure of the test above would see nothing"
+        );
     }
 }
 
@@ -141,7 +145,9 @@ fn energy_under_verlet_and_symplectic_euler_stays_near_with_an_error_of_their_or
     for (method, order) in [(Verlet, 2), (SymplecticEuler, 1)] {
         let [large, small] = [0.02, 0.01].map(|h| drift(method, h, STEPS / 4));
         let longer = drift(method, 0.02, STEPS);
-        println!("{method:?}: {large:.1e} at 0.02 s, {small:.1e} at 0.01 s, {longer:.1e} in four times the time");
+        println!(
+            "{method:?}: {large:.1e} at 0.02 s, {small:.1e} at 0.01 s, {longer:.1e} in four times the time"
+        );
         assert!(longer <= 1.05 * large, "{method:?} drifts: {longer} after {large}");
         let observed = (large / small).log2();
         assert!((observed - f64::from(order)).abs() <= 0.15, "{method:?}: order {observed}");

@@ -156,7 +156,8 @@ fn a_motion_is_refused_and_so_are_an_accuracy_a_step_or_memory_that_are_not_vali
     let refused = |dt: f64, accuracy: f64, memory: Memory, motion: &[Motion<f64>]| {
         let mut scene = build::scene::<f64>(&data);
         let before = build::bits(&scene);
-        let error = scene.step_moving(&mut Adaptive::new(Rosenbrock2::new(1.0, memory), dt, accuracy), motion);
+        let error =
+            scene.step_moving(&mut Adaptive::new(Rosenbrock2::new(1.0, memory), dt, accuracy), motion);
         assert_eq!(build::bits(&scene), before);
         error.unwrap_err()
     };

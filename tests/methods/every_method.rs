@@ -1,6 +1,9 @@
 //! What every method of time integration must keep: scalings, islands, memory, errors without a trace.
 
-use hooke::{Drag, Force, Gravity, MassSpring, Memory, Motion, PointForce, Real, Scene, SceneIn, SpringDamping, StepError};
+use hooke::{
+    Drag, Force, Gravity, MassSpring, Memory, Motion, PointForce, Real, Scene, SceneIn, SpringDamping,
+    StepError,
+};
 use hooke_tests::build::{self, Forces};
 use hooke_tests::data::SceneData;
 use hooke_tests::generate;
@@ -40,8 +43,16 @@ fn unchanged_by(factors: impl Fn(i32) -> Factors) {
             let single = moved::<f32>(method, &data, ONE, absolute);
             assert!(plain.iter().flatten().all(|x| x.is_finite()));
             for p in [-3, 1, 4] {
-                assert_eq!(moved::<f64>(method, &data, factors(p), absolute), plain, "{method:?}, f64, p = {p}");
-                assert_eq!(moved::<f32>(method, &data, factors(p), absolute), single, "{method:?}, f32, p = {p}");
+                assert_eq!(
+                    moved::<f64>(method, &data, factors(p), absolute),
+                    plain,
+                    "{method:?}, f64, p = {p}"
+                );
+                assert_eq!(
+                    moved::<f32>(method, &data, factors(p), absolute),
+                    single,
+                    "{method:?}, f32, p = {p}"
+                );
             }
         }
     }
@@ -121,8 +132,11 @@ fn trace<M: Memory>(scene: &mut MassSpring<M>, method: Method, data: &SceneData)
             let t = f64::from(step) * H;
             let mut at = data.position[pin];
             at[0] += 0.1 * t * t;
-            let motion =
-                Motion { particle: pin, position: build::real3(at), velocity: build::real3([0.2 * t, 0.0, 0.0]) };
+            let motion = Motion {
+                particle: pin,
+                position: build::real3(at),
+                velocity: build::real3([0.2 * t, 0.0, 0.0]),
+            };
             method.step(scene, options(H, 1e-4), forces.all(), &[motion]).unwrap();
             build::bits(scene)
         })

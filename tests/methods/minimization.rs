@@ -100,7 +100,10 @@ fn the_incremental_potential_of_the_answer_is_below_that_of_rest_and_a_minimum()
                         let mut aside = answer.clone();
                         aside[i][d] += way / h.max(1.0);
                         let there = potential(&data, h, &aside).0;
-                        assert!(there >= reached - rounding, "seed {seed}, {h} s: particle {i} finds {there} < {reached}");
+                        assert!(
+                            there >= reached - rounding,
+                            "seed {seed}, {h} s: particle {i} finds {there} < {reached}"
+                        );
                     }
                 }
             }
@@ -168,7 +171,8 @@ fn a_crumpled_cloth_survives_steps_of_any_length() {
         assert!(farthest < 10.0, "{h} s: {farthest} m");
         if h >= 1e3 {
             // A thousand seconds under backward Euler are rest.
-            let fastest = build::velocities(&scene).into_iter().flatten().fold(0.0, |m: f64, v| m.max(v.abs()));
+            let fastest =
+                build::velocities(&scene).into_iter().flatten().fold(0.0, |m: f64, v| m.max(v.abs()));
             assert!(fastest < 1e-5, "{fastest} m/s");
         }
     }

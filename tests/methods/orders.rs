@@ -32,10 +32,7 @@ fn cloth(damped: bool) -> SceneData {
 fn way(start: [f64; 3], t: f64) -> [[f64; 3]; 2] {
     let (a, w) = (0.05, 25.0);
     let [sin, cos] = [(w * t).sin(), (w * t).cos()];
-    [
-        [start[0] + a * sin, start[1] + a * (1.0 - cos), start[2]],
-        [a * w * cos, a * w * sin, 0.0],
-    ]
+    [[start[0] + a * sin, start[1] + a * (1.0 - cos), start[2]], [a * w * cos, a * w * sin, 0.0]]
 }
 
 /// q and 0.1 s·q̇ at the end.
@@ -95,8 +92,9 @@ fn every_method_has_its_order_also_with_damping_and_with_pins_that_accelerate() 
     println!("{:>16} {:>7} {:>7} {:>7}", "method", "plain", "damped", "moving");
     let mut off = Vec::new();
     for (method, order) in ORDERS {
-        let found = [(false, false), (true, false), (true, true)]
-            .map(|(damped, moving)| observed(method, &cloth(damped), 0.064, if order < 1.5 { 1024 } else { 64 }, moving));
+        let found = [(false, false), (true, false), (true, true)].map(|(damped, moving)| {
+            observed(method, &cloth(damped), 0.064, if order < 1.5 { 1024 } else { 64 }, moving)
+        });
         println!("{:>16} {:7.2} {:7.2} {:7.2}", format!("{method:?}"), found[0], found[1], found[2]);
         for found in found {
             if (found - order).abs() > 0.1 {
@@ -171,7 +169,9 @@ fn the_estimate_is_above_the_true_local_error_and_its_energy_goes_with_h2_under_
     let memory = |data: &SceneData| vec![[0.0; 3]; Rosenbrock3::<f64, ()>::needs(data.len())];
     let mut stiff = cloth(false);
     stiff.springs.iter_mut().for_each(|s| s.k *= 1e4);
-    for (name, data, smooth) in [("cloth", cloth(false), true), ("damped", cloth(true), true), ("stiff", stiff, false)] {
+    for (name, data, smooth) in
+        [("cloth", cloth(false), true), ("damped", cloth(true), true), ("stiff", stiff, false)]
+    {
         let mut forces = build::Forces::<f64>::new(&data);
         for method in ["ros2", "ros3"] {
             let mut seen = Vec::new();
@@ -182,7 +182,10 @@ fn the_estimate_is_above_the_true_local_error_and_its_energy_goes_with_h2_under_
                     estimate(&data, Rosenbrock3::new(h, memory(&data)).with(forces.all()), h)
                 };
                 let ratio = found[0] / found[2];
-                println!("{name}, {method}, h {h:.0e}: estimate {:.1e} m over truth {:.1e} m = {ratio:.1}", found[0], found[2]);
+                println!(
+                    "{name}, {method}, h {h:.0e}: estimate {:.1e} m over truth {:.1e} m = {ratio:.1}",
+                    found[0], found[2]
+                );
                 assert!(ratio > if smooth { 1.0 } else { 0.1 }, "{name}, {method}, {h} s: {ratio}");
                 seen.push(found[1]);
             }

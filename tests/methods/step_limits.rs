@@ -144,7 +144,8 @@ fn substeps_are_equal_smaller_steps_bit_for_bit_where_h_over_n_is_exact() {
     let mut data = generate::gentle_network(5, 10);
     for damped in [false, true] {
         if !damped {
-            (data.drag, data.springs) = (0.0, data.springs.iter().map(|s| hooke_tests::data::SpringData { c: 0.0, ..*s }).collect());
+            (data.drag, data.springs) =
+                (0.0, data.springs.iter().map(|s| hooke_tests::data::SpringData { c: 0.0, ..*s }).collect());
         }
         data.springs.iter_mut().for_each(|s| s.k = s.k.clamp(50.0, 200.0));
         let mut forces = build::Forces::<f64>::new(&data);

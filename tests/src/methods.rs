@@ -1,8 +1,8 @@
 //! Every method of time integration by name, so that one statement can be made of all of them.
 
 use hooke::{
-    Force, LinearlyImplicitEuler, MassSpring, Memory, Motion, Real, Report, Rosenbrock2,
-    Rosenbrock3, StepError,
+    Force, LinearlyImplicitEuler, MassSpring, Memory, Motion, Real, Report, Rosenbrock2, Rosenbrock3,
+    StepError,
 };
 
 use crate::build::{self, Forces};

@@ -24,10 +24,7 @@ pub fn side_by_side(a: &SceneData, b: &SceneData) -> (SceneData, Vec<usize>) {
         }
     }
     for (from, place) in [(b, &places[1]), (a, &places[0])] {
-        let moved = |p: &PointData| PointData {
-            particle: place[p.particle],
-            ..*p
-        };
+        let moved = |p: &PointData| PointData { particle: place[p.particle], ..*p };
         both.points.extend(from.points.iter().map(moved));
     }
     let [places, _] = places;

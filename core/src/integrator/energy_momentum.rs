@@ -102,7 +102,8 @@ impl<T: Real, F: Force<T>, S: Solver<T>, W: AsMut<[Vec3<T>]>, Z> Integrator<T>
                 let here = trial.state(&state);
                 let mut island = islands.island(k, work, &here);
                 prepare_island(&mut island, &self.forces, h, scaling);
-                found = assemble::<T, F, M::Law, _>(&mut island, &mut self.forces, T::ZERO, scaling, &Nothing)?;
+                found =
+                    assemble::<T, F, M::Law, _>(&mut island, &mut self.forces, T::ZERO, scaling, &Nothing)?;
                 missing::<T, F, M::Law>(&mut island, &state, &self.forces, h);
                 let beta = unsolved(&island);
                 if iteration == 0 {

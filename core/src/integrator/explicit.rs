@@ -135,7 +135,9 @@ fn walk<M: Memory<Real = T>, T: Real>(
         if let Some(b) = b.get_mut(row) {
             *b = vec3::add(*b, f);
         }
-        if other < free && let Some(b) = b.get_mut(other) {
+        if other < free
+            && let Some(b) = b.get_mut(other)
+        {
             *b = vec3::sub(*b, f);
         }
     });
@@ -156,23 +158,25 @@ impl<'a, M: Memory<Real = T>, T: Real> Explicit<'a, M> {
     /// Where the scene is.
     pub(crate) fn new(parts: Parts<'a, M>) -> Self {
         let Parts { network, islands, work } = parts;
-        let this =
-            Self {
-                network,
-                islands,
-                position: &mut work.r,
-                velocity: &mut work.p,
-                force: &mut work.b,
-                start: &mut work.y,
-            };
-        let pairs = [(&mut *this.position, &*this.network.position), (&mut *this.velocity, &this.network.velocity)];
+        let this = Self {
+            network,
+            islands,
+            position: &mut work.r,
+            velocity: &mut work.p,
+            force: &mut work.b,
+            start: &mut work.y,
+        };
+        let pairs =
+            [(&mut *this.position, &*this.network.position), (&mut *this.velocity, &this.network.velocity)];
         for (to, from) in pairs {
             for (to, from) in to.iter_mut().zip(from) {
                 *to = vec3::add([T::ZERO; 3], *from);
             }
         }
         for (i, slot) in this.network.slot.iter().enumerate() {
-            if slot & MARK != 0 && let Some(v) = this.velocity.get_mut(i) {
+            if slot & MARK != 0
+                && let Some(v) = this.velocity.get_mut(i)
+            {
                 *v = [T::ZERO; 3];
             }
         }
@@ -268,7 +272,9 @@ impl<'a, M: Memory<Real = T>, T: Real> Explicit<'a, M> {
         }
         for (slot, i) in islands.particle.iter().enumerate() {
             let i = *i as usize;
-            let (Some(q), Some(v)) = (network.position.get_mut(i), network.velocity.get_mut(i)) else { continue };
+            let (Some(q), Some(v)) = (network.position.get_mut(i), network.velocity.get_mut(i)) else {
+                continue;
+            };
             if slot < islands.free {
                 if let (Some(next), Some(rate)) = (position.get(i), velocity.get(i)) {
                     (*q, *v) = (*next, *rate);
@@ -278,7 +284,9 @@ impl<'a, M: Memory<Real = T>, T: Real> Explicit<'a, M> {
             }
         }
         for m in motion {
-            if let (Some(q), Some(v)) = (network.position.get_mut(m.particle), network.velocity.get_mut(m.particle)) {
+            if let (Some(q), Some(v)) =
+                (network.position.get_mut(m.particle), network.velocity.get_mut(m.particle))
+            {
                 (*q, *v) = (m.position, m.velocity);
             }
         }

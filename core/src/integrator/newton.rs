@@ -81,7 +81,8 @@ struct Way<T> {
 impl<T: Real> Way<T> {
     fn new() -> Self {
         let none = T::ZERO;
-        let solve = Solve { iterations: 0, upper: none, lower: none, ending: Ending::Untouched, fallback: false };
+        let solve =
+            Solve { iterations: 0, upper: none, lower: none, ending: Ending::Untouched, fallback: false };
         Self { iterations: 0, goal: none, before: none, flat: false, clamped: 0, certified: true, solve }
     }
 

@@ -47,7 +47,8 @@ impl Tableau for Ros2 {
             rate: Combination { own: -1.0, stages: &[ROOT] },
         },
     ];
-    const POSITION: Combination = Combination { own: 2.0 + ROOT, stages: &[4.0 + 2.5 * ROOT, 1.0 + 0.5 * ROOT] };
+    const POSITION: Combination =
+        Combination { own: 2.0 + ROOT, stages: &[4.0 + 2.5 * ROOT, 1.0 + 0.5 * ROOT] };
     const VELOCITY: &'static [f64] = &[3.0 + 1.5 * ROOT, 1.0 + 0.5 * ROOT];
     const ERROR: (Combination, &'static [f64]) = (
         Combination { own: 0.0, stages: &[2.0 + 1.5 * ROOT, 1.0 + 0.5 * ROOT] },

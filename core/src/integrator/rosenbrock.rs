@@ -102,7 +102,9 @@ fn combined<T: Real>(of: &Combination, v: Vec3<T>, before: &Stages<'_, T>, slot:
     before.sum(of.stages, vec3::scale(T::from_f64(of.own), v), slot)
 }
 
-impl<K: Tableau, W: AsMut<[Vec3<T>]>, T: Real, F: Force<T>, S: Solver<T>, Z> Stepper<Staged<K, W>, T, F, S, Z> {
+impl<K: Tableau, W: AsMut<[Vec3<T>]>, T: Real, F: Force<T>, S: Solver<T>, Z>
+    Stepper<Staged<K, W>, T, F, S, Z>
+{
     /// h′
     fn inner(&self) -> T {
         T::from_f64(K::GAMMA) * self.dt
@@ -124,7 +126,8 @@ impl<K: Tableau, W: AsMut<[Vec3<T>]>, T: Real, F: Force<T>, S: Solver<T>, Z> Ste
         let state = network.state();
         let numbers = Staged::<K, W>::needs(state.mass.len());
         let short = StepError::Workspace { numbers, words: 0 };
-        let mut stages = Stages::cut(self.rule.memory.as_mut(), state.mass.len(), K::STAGES.len()).ok_or(short)?;
+        let mut stages =
+            Stages::cut(self.rule.memory.as_mut(), state.mass.len(), K::STAGES.len()).ok_or(short)?;
         stages.begin(&state);
         prepare(&islands.all_rows(&state), *work, &self.forces, h, scaling);
         self.solver.begin();
@@ -192,7 +195,10 @@ impl<K: Tableau, W: AsMut<[Vec3<T>]>, T: Real, F: Force<T>, S: Solver<T>, Z> Ste
         // δq = h′y and A has h′²K̃, so ½δqᵀ(M/h² − K̃)δq = ½yᵀ(γ²M − h′²K̃)y.
         let gamma = T::from_f64(K::GAMMA);
         let system = System { matrix, forces, points };
-        LocalError { energy: energy(&system, vectors.y, vectors.r, gamma * gamma), distance: h * farthest.sqrt() }
+        LocalError {
+            energy: energy(&system, vectors.y, vectors.r, gamma * gamma),
+            distance: h * farthest.sqrt(),
+        }
     }
 
     /// y⁺

@@ -75,11 +75,14 @@ impl<'a, T: Real> Stages<'a, T> {
     /// b and ḃ of moving pins at the stage's time.
     pub(crate) fn place_pins(&mut self, stage: &Stage, motion: &[Motion<T>], state: &State<'_, T>, dt: T) {
         for m in motion {
-            let (Some(b), Some(rate)) = (state.position.get(m.particle), state.velocity.get(m.particle)) else {
+            let (Some(b), Some(rate)) = (state.position.get(m.particle), state.velocity.get(m.particle))
+            else {
                 continue;
             };
             let [q, v] = m.at(T::from_f64(stage.time), dt, *b, *rate);
-            if let (Some(to), Some(to_v)) = (self.position.get_mut(m.particle), self.velocity.get_mut(m.particle)) {
+            if let (Some(to), Some(to_v)) =
+                (self.position.get_mut(m.particle), self.velocity.get_mut(m.particle))
+            {
                 (*to, *to_v) = (q, v);
             }
         }

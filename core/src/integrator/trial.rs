@@ -54,7 +54,9 @@ impl<'a, T: Real> Trial<'a, T> {
     /// Writes (q, q̇) of an island's rows as `of` makes them from the row and the scene's own.
     pub(crate) fn place(&mut self, rows: &Rows<'_, T>, of: impl Fn(usize, [Vec3<T>; 2]) -> [Vec3<T>; 2]) {
         for (row, i) in rows.particles().enumerate() {
-            let (Some(q), Some(v)) = (rows.state.position.get(i), rows.state.velocity.get(i)) else { continue };
+            let (Some(q), Some(v)) = (rows.state.position.get(i), rows.state.velocity.get(i)) else {
+                continue;
+            };
             if let (Some(to), Some(to_v)) = (self.position.get_mut(i), self.velocity.get_mut(i)) {
                 [*to, *to_v] = of(row, [*q, *v]);
             }
@@ -80,9 +82,8 @@ pub(crate) fn loose<T: Real>(stop: &Stop<T>) -> Stop<T> {
 pub(crate) fn rounding<T: Real>(island: &mut IslandParts<'_, T>, before: &State<'_, T>, h: T) -> T {
     let IslandParts { matrix, vectors, particle, spring, .. } = island;
     let here = matrix.rows.state;
-    let size = |list: &[Vec3<T>], i: usize| {
-        list.get(i).map_or(T::ZERO, |x| x[0].abs() + x[1].abs() + x[2].abs())
-    };
+    let size =
+        |list: &[Vec3<T>], i: usize| list.get(i).map_or(T::ZERO, |x| x[0].abs() + x[1].abs() + x[2].abs());
     for (r, i) in vectors.r.iter_mut().zip(matrix.rows.particles()) {
         let m = here.mass.get(i).copied().unwrap_or(T::ZERO);
         r[0] = m * (size(before.velocity, i) + size(here.velocity, i));
@@ -92,7 +93,8 @@ pub(crate) fn rounding<T: Real>(island: &mut IslandParts<'_, T>, before: &State<
     for (row, own) in matrix.own.iter().enumerate() {
         for (other, j) in edges.by_ref().take(*own as usize) {
             let (other, spring) = (*other as usize, here.spring(*j as usize));
-            let reach = size(here.position, place(row)) + size(here.position, place(other)) + spring.rest_length;
+            let reach =
+                size(here.position, place(row)) + size(here.position, place(other)) + spring.rest_length;
             for end in [row, other] {
                 if let Some(r) = vectors.r.get_mut(end) {
                     r[0] += h * spring.stiffness * reach;
