@@ -194,7 +194,7 @@ pub(crate) fn force<T: Real, F: Force<T>, L: Law>(
     let mut pull = -spring.tension(stretched.length);
     if F::DAMPS {
         let speed = vec3::sub(at(state.velocity, near), at(state.velocity, far));
-        pull = pull - forces.damping(j) * vec3::dot(stretched.direction, speed);
+        pull -= forces.damping(j) * vec3::dot(stretched.direction, speed);
     }
     vec3::scale(pull, stretched.direction)
 }

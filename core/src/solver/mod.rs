@@ -84,7 +84,8 @@ pub trait Solver<T: Real> {
         stop: &Stop<T>,
     ) -> Result<Answer<T>, StepError> {
         let Island { island, forces, h, scaling } = to;
-        let Assembled { clamped, certified, points, free } = assemble::<T, F, L, _>(island, forces, h, scaling, &Same)?;
+        let Assembled { clamped, certified, points, free } =
+            assemble::<T, F, L, _>(island, forces, h, scaling, &Same)?;
         let IslandParts { matrix, vectors, block, .. } = island;
         let system = System { matrix, forces: &*forces, points };
         let solve = self.solve(Problem { system, vectors, block, free }, stop)?;
