@@ -4,7 +4,7 @@ use hooke_tests::data::SceneData;
 use hooke_tests::dense::Dense;
 use hooke_tests::methods::{Method, options};
 use hooke_tests::{allowed, build, generate};
-use nalgebra::{DMatrix, DVector};
+use nalgebra::{DMatrix, DVector, Vector3};
 
 use super::coefficients::{Published, ros2, ros34pw2};
 
@@ -136,4 +136,38 @@ fn a_step_of_newton_solves_backward_euler() {
         }
         y
     });
+}
+
+#[test]
+fn a_step_of_energy_momentum_solves_its_equation() {
+    // M(q̇¹ − q̇⁰) = h(f̄ + Mg − dM(q̇⁰ + q̇¹)/2), q¹ = q⁰ + ½h(q̇⁰ + q̇¹), f̄_A = −k(1 − 2l₀/(l⁰ + l¹))(Δx⁰ + Δx¹)/2.
+    let mut largest = 0.0f64;
+    for seed in 0..10 {
+        let data = gentle(seed);
+        for h in [1e-3, 1.0 / 60.0] {
+            let mut scene = build::scene::<f64>(&data);
+            let mut forces = build::Forces::<f64>::new(&data);
+            Method::EnergyMomentum.step(&mut scene, options(h, 1e-14), forces.all(), &[]).unwrap();
+            let mut after = data.clone();
+            build::read_back(&scene, &mut after);
+            let of = |list: &[[f64; 3]], i: usize| Vector3::from(list[i]);
+            let mut impulse = vec![Vector3::zeros(); data.len()];
+            for s in &data.springs {
+                let start = of(&data.position, s.a) - of(&data.position, s.b);
+                let end = of(&after.position, s.a) - of(&after.position, s.b);
+                let f = -s.k * (1.0 - 2.0 * s.l0 / (start.norm() + end.norm())) * (start + end) / 2.0;
+                impulse[s.a] += h * f;
+                impulse[s.b] -= h * f;
+            }
+            for i in (0..data.len()).filter(|i| !data.pinned[*i]) {
+                let (m, v0, v1) = (data.mass[i], of(&data.velocity, i), of(&after.velocity, i));
+                let outer = m * (Vector3::from(data.gravity) - data.drag * (v0 + v1) / 2.0);
+                let missing = (v1 - v0) - (impulse[i] + h * outer) / m;
+                let way = of(&after.position, i) - of(&data.position, i) - 0.5 * h * (v0 + v1);
+                largest = largest.max(missing.amax()).max(way.amax());
+            }
+        }
+    }
+    println!("energy-momentum: {largest:.1e} m/s missing");
+    assert!(largest <= allowed::DENSE_STEP, "{largest:e}");
 }
