@@ -35,7 +35,7 @@ use crate::solver::{Problem, Solver};
 use crate::system::System;
 use crate::vec3::{self, Vec3};
 
-/// own·q̇ + Σ stages[j]·u̇ⱼ
+/// own·q̇ + Σ stagesⱼ·u̇ⱼ
 #[derive(Debug)]
 pub struct Combination {
     /// What q̇ is multiplied by.
