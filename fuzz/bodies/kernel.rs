@@ -1,7 +1,10 @@
 //! Any sequence of calls to a scene: none panics, a refused call changes nothing, positions and velocities stay finite,
 //! pins stay where they are, and a step's bounds are in order.
 
-use hooke::{Drag, Fixed, LinearlyImplicitEuler, Mixed, PointSpring, Scene, Snapshot, Spring};
+use hooke::{
+    Adaptive, Drag, EnergyMomentum, Fixed, LinearlyImplicitEuler, Midpoint, Mixed, Newton, PointSpring,
+    Rosenbrock2, Rosenbrock3, Scene, Snapshot, Spring, SymplecticEuler, Verlet,
+};
 
 type S = Scene<f32, 12, 24, Mixed>;
 
@@ -76,14 +79,38 @@ pub fn kernel(data: &[u8]) {
                 None => false,
             },
             _ => {
-                let mut euler = LinearlyImplicitEuler::new(bytes.number().abs() / 16.0)
-                    .gravity([0.0, -9.81, 0.0])
-                    .with(Drag(bytes.number()))
-                    .with(PointSpring::new(i, bytes.vector(), bytes.number()))
-                    .max_iterations(u32::from(bytes.byte()));
+                let dt = bytes.number().abs() / 16.0;
+                let drag = Drag(bytes.number());
+                let point = PointSpring::new(i, bytes.vector(), bytes.number());
+                let iterations = u32::from(bytes.byte());
                 let pinned: Vec<_> = (0..scene.positions().len()).filter(|i| scene.is_pinned(*i)).collect();
                 let held: Vec<_> = pinned.iter().map(|i| scene.positions()[*i].map(f32::to_bits)).collect();
-                let step = scene.step(&mut euler);
+                // A step is short of memory where the byte says so; what is in it must not matter.
+                let method = bytes.byte();
+                let room = if method >= 240 { 1 } else { 5 * scene.positions().len() };
+                let memory = vec![[f32::NAN; 3]; room];
+                macro_rules! step {
+                    ($method:expr) => {{
+                        let forces = $method.gravity([0.0, -9.81, 0.0]).with(drag).with(point);
+                        scene.step(&mut forces.max_iterations(iterations))
+                    }};
+                    (adaptive $method:expr) => {{
+                        let forces = $method.gravity([0.0, -9.81, 0.0]).with(drag).with(point);
+                        scene.step(&mut Adaptive::new(forces.max_iterations(iterations), dt, 1e-3))
+                    }};
+                }
+                let step = match method % 10 {
+                    1 => step!(Midpoint::new(dt)),
+                    2 => step!(Rosenbrock2::new(dt, memory)),
+                    3 => step!(Rosenbrock3::new(dt, memory)),
+                    4 => step!(Newton::new(dt, memory)),
+                    5 => step!(EnergyMomentum::new(dt, memory)),
+                    6 => step!(Verlet::new(dt).substeps_at_most(100)),
+                    7 => step!(SymplecticEuler::new(dt)),
+                    8 => step!(adaptive Rosenbrock2::new(dt, memory)),
+                    9 => step!(adaptive Rosenbrock3::new(dt, memory)),
+                    _ => step!(LinearlyImplicitEuler::new(dt)),
+                };
                 if let Ok(report) = step {
                     assert!(
                         report.lower <= report.upper && report.upper.is_finite(),

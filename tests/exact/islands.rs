@@ -5,39 +5,8 @@ use hooke_tests::build::{self, Forces};
 use hooke_tests::data::SceneData;
 use hooke_tests::generate;
 use hooke_tests::random::Random;
+use hooke_tests::side_by_side::side_by_side;
 use hooke_tests::vec_memory::VecScene;
-
-/// Two scenes side by side, particles and springs of both taking turns.
-fn side_by_side(a: &SceneData, b: &SceneData) -> (SceneData, Vec<usize>) {
-    let mut both = SceneData { gravity: a.gravity, drag: a.drag, ..SceneData::default() };
-    let mut places = [vec![0; a.len()], vec![0; b.len()]];
-    for i in 0..a.len().max(b.len()) {
-        for (which, from) in [b, a].into_iter().enumerate() {
-            if i < from.len() {
-                let to = both.particle(from.position[i], from.mass[i]);
-                both.velocity[to] = from.velocity[i];
-                both.pinned[to] = from.pinned[i];
-                places[1 - which][i] = to;
-            }
-        }
-    }
-    for i in 0..a.springs.len().max(b.springs.len()) {
-        for (from, place) in [(b, &places[1]), (a, &places[0])] {
-            if let Some(s) = from.springs.get(i) {
-                both.springs.push(hooke_tests::data::SpringData { a: place[s.a], b: place[s.b], ..*s });
-            }
-        }
-    }
-    for (from, place) in [(b, &places[1]), (a, &places[0])] {
-        let moved = |p: &hooke_tests::data::PointData| hooke_tests::data::PointData {
-            particle: place[p.particle],
-            ..*p
-        };
-        both.points.extend(from.points.iter().map(moved));
-    }
-    let [places, _] = places;
-    (both, places)
-}
 
 fn alone_and_beside<T: Real>(seed: u64) {
     let a = generate::gentle_network(seed, 11);

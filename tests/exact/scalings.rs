@@ -4,48 +4,8 @@ use hooke::{Real, Stop};
 use hooke_tests::build::{self, Forces};
 use hooke_tests::data::SceneData;
 use hooke_tests::random::Random;
+use hooke_tests::scaled::{Factors, ONE, scaled};
 use hooke_tests::{allowed, generate};
-
-/// What the quantities of a scene are multiplied by.
-#[derive(Clone, Copy)]
-struct Factors {
-    length: f64,
-    velocity: f64,
-    mass: f64,
-    stiffness: f64,
-    damping: f64,
-    drag: f64,
-    gravity: f64,
-    time: f64,
-    energy: f64,
-}
-
-const ONE: Factors = Factors {
-    length: 1.0,
-    velocity: 1.0,
-    mass: 1.0,
-    stiffness: 1.0,
-    damping: 1.0,
-    drag: 1.0,
-    gravity: 1.0,
-    time: 1.0,
-    energy: 1.0,
-};
-
-fn scaled(data: &SceneData, by: Factors) -> SceneData {
-    let times = |factor: f64| move |x: [f64; 3]| x.map(|x| x * factor);
-    let mut to = data.moved(times(by.length), times(by.velocity));
-    to.gravity = times(by.gravity)(data.gravity);
-    to.drag *= by.drag;
-    to.mass.iter_mut().for_each(|m| *m *= by.mass);
-    for s in &mut to.springs {
-        (s.k, s.l0, s.c) = (s.k * by.stiffness, s.l0 * by.length, s.c * by.damping);
-    }
-    for p in &mut to.points {
-        (p.k, p.l0) = (p.k * by.stiffness, p.l0 * by.length);
-    }
-    to
-}
 
 /// Positions, velocities, iterations and clamped springs after so many steps, undone by the factors.
 fn run<T: Real>(data: &SceneData, by: Factors, absolute: f64) -> (Vec<[f64; 6]>, u32, u32) {

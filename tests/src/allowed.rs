@@ -89,3 +89,20 @@ pub const TRIANGULAR: f64 = 64.0;
 /// A dense block pivot, in units of u·max|A|: each of up to 12 earlier rows takes away less than max|A|
 /// with 8 roundings (derived; an earlier pivot's own error is passed on shrunk).
 pub const PIVOT: f64 = 100.0;
+/// Free fall by a Rosenbrock method, units of u·n·(|x| + |v|t) after n steps: the products of a step with their coefficients, up
+/// to 18·γ of q̇ and 9 of u̇, lose 2u each, and their sums 4u (derived: below 32).
+pub const FREE_FALL: f64 = 32.0;
+/// A pair that rotates, in units of u a step, relative to radius and speed (measured: at most 9.6, where energy-momentum
+/// turns by 1.1 a step; fourfold).
+pub const ROTATING: f64 = 40.0;
+/// A coefficient of a Rosenbrock method made anew, units of u: products and sums of published numbers below 6, each rounded at
+/// u, up to 4 deep (derived: below 64).
+pub const COEFFICIENT: f64 = 64.0;
+/// Linear momentum of a free island over one step of any method, units of u·(Σm|v| before and after + Σ impulses of the springs)
+/// (measured: at most 2.2, under `ros3`, whose later stages have impulses of their own; fourfold).
+pub const MOMENTUM_OF_METHODS: f64 = 8.0;
+/// Angular momentum about the origin, units of u·(Σm|x||v| before and after + Σ impulses of the springs)
+/// (measured: at most 7.6, under energy-momentum, which ends where its equation is solved to rounding; fourfold).
+pub const ANGULAR_MOMENTUM: f64 = 32.0;
+/// One tight step of a gentle scene against a dense formula, m and m/s (measured: at most 5.2e-14; margin 16).
+pub const DENSE_STEP: f64 = 8e-13;

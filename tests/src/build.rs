@@ -41,6 +41,12 @@ impl<T: Real> Forces<T> {
         }
     }
 
+    /// All of them, for one step.
+    pub fn all(&mut self) -> Everything<'_, T> {
+        let damping = SpringDamping(self.damping.as_slice());
+        (((((), Gravity(self.gravity)), Drag(self.drag)), damping), self.points.as_mut_slice())
+    }
+
     /// Linearly-implicit Euler under these forces.
     pub fn euler(&mut self, dt: T) -> LinearlyImplicitEuler<T, Everything<'_, T>> {
         LinearlyImplicitEuler::new(dt)

@@ -82,6 +82,12 @@ enum hooke_status
   HOOKE_FORCE = 22,
   // The motion of this pin is infinite or NaN, or too far to reach in one step.
   HOOKE_MOTION = 23,
+  // dt is beyond the limit of an explicit method, which this particle sets.
+  HOOKE_STEP_LIMIT = 24,
+  // The equations of the step were not solved; this particle begins the island.
+  HOOKE_NOT_CONVERGED = 25,
+  // No step is short enough for the accuracy that is asked for.
+  HOOKE_ACCURACY = 26,
 };
 #ifndef __cplusplus
 typedef int32_t hooke_status;

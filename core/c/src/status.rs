@@ -57,6 +57,12 @@ pub enum hooke_status {
     HOOKE_FORCE = 22,
     /// The motion of this pin is infinite or NaN, or too far to reach in one step.
     HOOKE_MOTION = 23,
+    /// dt is beyond the limit of an explicit method, which this particle sets.
+    HOOKE_STEP_LIMIT = 24,
+    /// The equations of the step were not solved; this particle begins the island.
+    HOOKE_NOT_CONVERGED = 25,
+    /// No step is short enough for the accuracy that is asked for.
+    HOOKE_ACCURACY = 26,
 }
 
 use hooke_status::*;
@@ -108,6 +114,9 @@ impl From<StepError> for Failure {
             StepError::NotPinned(i) => (HOOKE_NOT_PINNED, i),
             StepError::Motion(i) => (HOOKE_MOTION, i),
             StepError::NotFinite(i) => (HOOKE_NOT_FINITE, i),
+            StepError::StepLimit(i) => (HOOKE_STEP_LIMIT, i),
+            StepError::NotConverged(i) => (HOOKE_NOT_CONVERGED, i),
+            StepError::Accuracy => (HOOKE_ACCURACY, NO_INDEX),
             StepError::Workspace { .. } => (HOOKE_TOO_SMALL, NO_INDEX),
         };
         Self { status, index }
@@ -118,7 +127,7 @@ impl From<StepError> for Failure {
 #[unsafe(no_mangle)]
 pub extern "C" fn hooke_message(status: i32) -> *const c_char {
     // In the order of the enum. A number and not the enum is taken: C can pass any.
-    const MESSAGES: [&CStr; 24] = [
+    const MESSAGES: [&CStr; 27] = [
         c"done",
         c"a pointer is null",
         c"a pointer is misaligned",
@@ -143,7 +152,10 @@ pub extern "C" fn hooke_message(status: i32) -> *const c_char {
         c"a tolerance is negative, infinite or NaN",
         c"gravity, drag or damping is infinite, NaN or negative",
         c"the motion of a pin is infinite or NaN",
+        c"dt is beyond the limit of an explicit method",
+        c"the equations of the step did not converge",
+        c"no step is short enough for this accuracy",
     ];
-    const { assert!(MESSAGES.len() == HOOKE_MOTION as usize + 1) };
+    const { assert!(MESSAGES.len() == HOOKE_ACCURACY as usize + 1) };
     usize::try_from(status).ok().and_then(|n| MESSAGES.get(n)).unwrap_or(&c"unknown status").as_ptr()
 }

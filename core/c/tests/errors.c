@@ -256,7 +256,7 @@ static void reading(void) {
     SAME(1, energies.kinetic > 0 && energies.springs > 0 && energies.gravity < 0);
     SAME(HOOKE_OK, hooke_f32_release(scene, 0));
     SAME(0, strcmp(hooke_message(HOOKE_MOTION), "the motion of a pin is infinite or NaN"));
-    SAME(0, strcmp(hooke_message(HOOKE_MOTION + 1), "unknown status"));
+    SAME(0, strcmp(hooke_message(HOOKE_ACCURACY + 1), "unknown status"));
     SAME(0, strcmp(hooke_message(-1), "unknown status"));
 }
 

@@ -262,6 +262,8 @@ impl<I: Embedded<T>, T: Real> Integrator<T> for Adaptive<I, T> {
                 Ok((_, error)) => Some(error),
                 // What is out of range at this step need not be at a shorter one.
                 Err(StepError::NotFinite(_)) => None,
+                // Shortened until its square is 0.
+                Err(StepError::TimeStep) if rejections > 0 => return Err(StepError::Accuracy),
                 Err(error) => return Err(error),
             };
             dt = dt * error.map_or(T::from_f64(0.1), |error| Self::shortened(self.ratio(error)));

@@ -11,7 +11,8 @@
 //! absolute tolerance, or where rounding ends it; after 50 with [`StepError::NotConverged`].
 //!
 //! Order 2. Keeps energy, linear and angular momentum to that tolerance where pins rest and nothing damps; conserving is not
-//! being right: at hω ≫ 1 it is stable, but what is fast has a wrong phase. Use it for long runs whose balance matters. A cable
+//! being right: at hω ≳ 1 what is fast has a wrong phase, and where springs turn or are pressed much in a step the iteration
+//! above does not converge, and says so. Use it for long runs whose balance matters. A cable
 //! is taken as a spring whose V is 0 when slack, by the same difference. [`crate::PointSpring`] is taken in the middle: it
 //! swings, but keeps no energy. Cost: an assembly, a solve and a pass over the springs (two roots each) per iteration. Memory: 2 vectors per particle.
 //!

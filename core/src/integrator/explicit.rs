@@ -62,7 +62,9 @@ pub(crate) fn stiffest<M: Memory<Real = T>, T: Real, F: Force<T>>(
         forces.linearize(&rows, Scaling::unit());
         forces.hessians(&rows, &mut |row, h| {
             if let Some(mu) = work.mu.get_mut(row) {
-                *mu += h.alpha.abs() + vec3::dot(h.w, h.w);
+                // The largest eigenvalue, which is k however long a spring is; −∂f of a force that repels counts by its size.
+                let along = h.alpha + vec3::dot(h.w, h.w);
+                *mu += if along > T::ZERO { along } else { -along };
             }
         });
     }

@@ -47,9 +47,11 @@ pub(crate) fn merge<T: Real>(before: Option<Solve<T>>, next: Solve<T>) -> Solve<
         Ending::Capped => 3,
         Ending::Stalled => 4,
     };
+    // What is not finite stays so, a NaN too: the step is refused for it.
+    let worse = before.upper.is_finite() && !(next.upper <= before.upper);
     Solve {
         iterations: before.iterations.saturating_add(next.iterations),
-        upper: larger(before.upper, next.upper),
+        upper: if worse { next.upper } else { before.upper },
         lower: larger(before.lower, next.lower),
         ending: if rank(before.ending) < rank(next.ending) { next.ending } else { before.ending },
         fallback: before.fallback || next.fallback,

@@ -9,9 +9,9 @@
 //! are lagged, u at the beginning of the step, and then ½h c(u·Δv)² is one. Pins are at b⁺, with p = (b⁺ − b)/h.
 //!
 //! Order 1; stable at any h on any scene, whatever springs are compressed; damps as [`crate::LinearlyImplicitEuler`] does. Keeps
-//! linear momentum to the tolerance on islands that nothing holds. Use it where a large step must not fail, and to find what a
-//! scene rests in. It ends where ½bᵀdiag(μ)⁻¹b, b = −∂E/∂v, is at most R² of what it was at v = 0, or at most the absolute
-//! tolerance, or where rounding ends it; after 50 iterations with [`StepError::NotConverged`]. Cost: a few assemblies and
+//! linear momentum to the tolerance on islands that nothing holds. Use it where a large step is to hold, and to find what a scene
+//! rests in; at R = 1e-7 and 1/60 s 2 of 30 violent random networks asked for more iterations than there are, at 1 s 16. It ends where ½bᵀdiag(μ)⁻¹b, b = −∂E/∂v, is at most R² of what it was at v = 0, or at most the absolute
+//! tolerance, or where rounding ends it; after 200 iterations with [`StepError::NotConverged`]. Cost: a few assemblies and
 //! solves, and passes over the springs (one root each) for E. Memory: 2 vectors per particle.
 //!
 //! Source: Gast, Schroeder, Stomakhin, Jiang & Teran 2015, *Optimization integrator for large time steps*; Nocedal & Wright,
@@ -62,7 +62,7 @@ impl<T: Real> Stepper<Minimized<()>, T> {
 }
 
 /// No more iterations than these, nor halvings of one.
-const ITERATIONS: u32 = 50;
+const ITERATIONS: u32 = 200;
 const HALVINGS: u32 = 40;
 
 /// How far an island's iteration has come.
@@ -166,6 +166,9 @@ impl<T: Real, F: Force<T>, S: Solver<T>, W: AsMut<[Vec3<T>]>, Z> Integrator<T>
                 way.solve = merge(Some(way.solve), self.solver.solve(problem, &loose(&self.stop))?);
                 // bᵀΔ: x is A's own answer to b in the space it lies in, so this is ΔᵀAΔ.
                 let slope = System { matrix, forces: &self.forces, points }.form(vectors.x);
+                if !(slope > T::ZERO) && way.solve.ending == Ending::Capped {
+                    return Err(stuck); // A solver that may not iterate finds nothing.
+                }
                 // v stays in y while the search moves.
                 for (y, i) in vectors.y.iter_mut().zip(matrix.rows.particles()) {
                     *y = here.velocity.get(i).copied().unwrap_or([T::ZERO; 3]);

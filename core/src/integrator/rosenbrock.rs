@@ -35,7 +35,7 @@ use crate::solver::{Problem, Solver};
 use crate::system::System;
 use crate::vec3::{self, Vec3};
 
-/// own·q̇ + Σ stages[j]·u̇ⱼ
+/// own·q̇ + Σ stagesⱼ·u̇ⱼ
 #[derive(Debug)]
 pub struct Combination {
     /// What q̇ is multiplied by.
@@ -251,7 +251,8 @@ impl<K: Tableau, W: AsMut<[Vec3<T>]>, T: Real, F: Force<T>, S: Solver<T>, Z> Emb
         watch: &mut impl FnMut(&IslandReport<T>),
     ) -> Result<(Report<T>, LocalError<T>), StepError> {
         self.dt = dt;
-        self.stop.absolute = absolute;
+        // Only J rules: a relative tolerance would let a solve end sooner.
+        (self.stop.relative, self.stop.absolute) = (T::ZERO, absolute);
         self.stages(parts, &[], watch, true)
     }
 

@@ -29,13 +29,13 @@ impl<'a, T: Real> Stages<'a, T> {
         Some(Self { particles, position, velocity, found })
     }
 
-    /// Everything where it is.
+    /// Everything where it is; pins rest unless a motion moves them, however fast they were.
     pub(crate) fn begin(&mut self, state: &State<'_, T>) {
         for (to, from) in self.position.iter_mut().zip(state.position) {
             *to = vec3::add([T::ZERO; 3], *from);
         }
-        for (to, from) in self.velocity.iter_mut().zip(state.velocity) {
-            *to = vec3::add([T::ZERO; 3], *from);
+        for (i, (to, from)) in self.velocity.iter_mut().zip(state.velocity).enumerate() {
+            *to = if state.is_pinned(i) { [T::ZERO; 3] } else { vec3::add([T::ZERO; 3], *from) };
         }
     }
 
@@ -194,7 +194,7 @@ pub(crate) fn force<T: Real, F: Force<T>, L: Law>(
     let mut pull = -spring.tension(stretched.length);
     if F::DAMPS {
         let speed = vec3::sub(at(state.velocity, near), at(state.velocity, far));
-        pull = pull - forces.damping(j) * vec3::dot(stretched.direction, speed);
+        pull -= forces.damping(j) * vec3::dot(stretched.direction, speed);
     }
     vec3::scale(pull, stretched.direction)
 }

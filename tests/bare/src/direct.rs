@@ -35,4 +35,14 @@ crate::entry_point::entry_points! {
     ) -> Result<Solve<T>, StepError> {
         solver.solve(problem, stop)
     }
+    Solver::again[banded](
+        solver: &mut Banded<'_, T>, problem: Problem<'_, '_, T, All<'_, T>>, stop: &Stop<T>,
+    ) -> Result<Solve<T>, StepError> {
+        solver.again(problem, stop)
+    }
+    Solver::again[sparse](
+        solver: &mut Sparse<'_, T>, problem: Problem<'_, '_, T, All<'_, T>>, stop: &Stop<T>,
+    ) -> Result<Solve<T>, StepError> {
+        solver.again(problem, stop)
+    }
 }

@@ -8,14 +8,15 @@ use hooke::{
 use crate::shared::*;
 
 crate::entry_point::entry_points! {
-    LinearlyImplicitEuler::new(dt: T) -> Euler<T> { Euler::new(dt) }
-    LinearlyImplicitEuler::with(euler: Euler<T>, rate: T) -> Euler<T, ((), Drag<T>)> { euler.with(Drag(rate)) }
-    LinearlyImplicitEuler::gravity(euler: Euler<T>, g: V<T>) -> Euler<T, ((), Gravity<T>)> { euler.gravity(g) }
-    LinearlyImplicitEuler::tolerance(euler: Euler<T>, r: T) -> Euler<T> { euler.tolerance(r) }
-    LinearlyImplicitEuler::absolute(euler: Euler<T>, joules: T) -> Euler<T> { euler.absolute(joules) }
-    LinearlyImplicitEuler::max_iterations(euler: Euler<T>, n: u32) -> Euler<T> { euler.max_iterations(n) }
-    LinearlyImplicitEuler::solver(euler: Euler<T>) -> Euler<T> { euler.solver(BlockJacobi) }
-    LinearlyImplicitEuler::dt(euler: &Euler<T>) -> T { euler.dt() }
+    Stepper::new(dt: T) -> Euler<T> { Euler::new(dt) }
+    Stepper::with(euler: Euler<T>, rate: T) -> Euler<T, ((), Drag<T>)> { euler.with(Drag(rate)) }
+    Stepper::gravity(euler: Euler<T>, g: V<T>) -> Euler<T, ((), Gravity<T>)> { euler.gravity(g) }
+    Stepper::tolerance(euler: Euler<T>, r: T) -> Euler<T> { euler.tolerance(r) }
+    Stepper::absolute(euler: Euler<T>, joules: T) -> Euler<T> { euler.absolute(joules) }
+    Stepper::max_iterations(euler: Euler<T>, n: u32) -> Euler<T> { euler.max_iterations(n) }
+    Stepper::solver(euler: Euler<T>) -> Euler<T> { euler.solver(BlockJacobi) }
+    Stepper::dt(euler: &Euler<T>) -> T { euler.dt() }
+    Stepper::set_dt(euler: &mut Euler<T>, dt: T) { euler.set_dt(dt) }
     LinearlyImplicitEuler::inspect(
         euler: &mut Euler<T, All<'_, T>>, parts: Parts<'_, Owner<T>>, motion: &[Motion<T>], sum: &mut T,
     ) -> bool {

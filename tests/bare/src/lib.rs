@@ -14,6 +14,7 @@ mod equations;
 mod forces;
 mod integrator;
 mod measuring;
+mod methods;
 mod multigrid;
 mod preconditioned;
 mod sleeping;

@@ -18,6 +18,7 @@ pub mod drag;
 pub mod edits;
 pub mod islands;
 pub mod measures;
+pub mod methods;
 pub mod moving_pin;
 pub mod pin_release;
 pub mod point_force;
@@ -91,4 +92,20 @@ pub static ALL: &[Job] = &[
     solvers::MULTIGRID_F64,
     sleeping::F32,
     sleeping::F64,
+    methods::MIDPOINT_F32,
+    methods::MIDPOINT_F64,
+    methods::ROS2_F32,
+    methods::ROS2_F64,
+    methods::ROS3_F32,
+    methods::ROS3_F64,
+    methods::NEWTON_F32,
+    methods::NEWTON_F64,
+    methods::ENERGY_MOMENTUM_F32,
+    methods::ENERGY_MOMENTUM_F64,
+    methods::VERLET_F32,
+    methods::VERLET_F64,
+    methods::SYMPLECTIC_F32,
+    methods::SYMPLECTIC_F64,
+    methods::ADAPTIVE_F32,
+    methods::ADAPTIVE_F64,
 ];

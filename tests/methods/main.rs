@@ -1,0 +1,14 @@
+//! Methods of time integration: exact identities, what they keep, their limits, and their orders.
+
+// Indices are those of the formulas.
+#![allow(clippy::needless_range_loop)]
+
+mod closed_forms;
+mod coefficients;
+mod conservation;
+mod dense_step;
+mod error_control;
+mod every_method;
+mod minimization;
+mod orders;
+mod step_limits;
