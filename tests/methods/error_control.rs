@@ -122,7 +122,7 @@ impl Force<f64> for Counted<'_> {
 #[test]
 fn an_accuracy_below_rounding_ends_after_few_attempts_with_the_scene_untouched_and_says_what_was_attained() {
     for data in scenes() {
-        for (dt, accuracy) in [(0.01, 1e-200), (1.0, 1e-250), (1e-6, 1e-300)] {
+        for (dt, accuracy) in [(0.01, 1e-40), (0.01, 1e-200), (1.0, 1e-250), (1e-6, 1e-300)] {
             let attempts = Cell::new(0);
             let mut forces = build::Forces::<f64>::new(&data);
             let mut scene = build::scene::<f64>(&data);
@@ -130,7 +130,8 @@ fn an_accuracy_below_rounding_ends_after_few_attempts_with_the_scene_untouched_a
             let method = Rosenbrock2::new(1.0, memory(&data)).with(forces.all()).with(Counted(&attempts));
             let mut method = Adaptive::new(method, dt, accuracy);
             assert_eq!(scene.step(&mut method), Err(StepError::Accuracy), "{dt} s, {accuracy:e} J");
-            assert!((7..=24).contains(&attempts.get()), "{} attempts", attempts.get());
+            // Rounding alone is more, so that none need be made.
+            assert!(attempts.get() <= 24, "{} attempts", attempts.get());
             assert!(method.attained() > accuracy, "{}", method.attained());
             assert_eq!(build::bits(&scene), before);
             method.set_accuracy(1e9);

@@ -229,6 +229,9 @@ impl<I: Embedded<T>, T: Real> Integrator<T> for Adaptive<I, T> {
         if !(self.accuracy > T::ZERO && self.accuracy.is_finite()) {
             return Err(StepError::Tolerance);
         }
+        if !(self.dt > T::ZERO && self.dt.is_finite()) {
+            return Err(StepError::TimeStep);
+        }
         let longest = self.method.longest(&mut parts);
         if longest < self.dt {
             self.dt = longest;
