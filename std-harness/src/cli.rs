@@ -8,6 +8,7 @@ use clap::{Args, CommandFactory, Parser, Subcommand, ValueEnum};
 use crate::error::InputError;
 use crate::nearest;
 use crate::scene::PinRule;
+use crate::work_precision::arguments::Arguments;
 
 /// Simulate mass-spring systems, with an error bound on every linear solve.
 ///
@@ -26,6 +27,9 @@ pub enum Command {
     /// Simulate a scene: a name, a mesh file or a scene .toml (default: curtain)
     #[command(after_help = scenes())]
     Run(Box<RunArgs>),
+    /// Compare methods on a scene: error against time, with a reference that certifies itself
+    #[command(after_help = scenes())]
+    WorkPrecision(Box<Arguments>),
     /// Say what is in a mesh file
     Info(InfoArgs),
 }
@@ -94,21 +98,9 @@ pub struct RunArgs {
     #[arg(long, value_enum, default_value_t = Precision::F64, help_heading = "Method")]
     pub precision: Precision,
 
-    /// Stiffness of every spring, N/m
-    #[arg(long, value_name = "K", allow_negative_numbers = true, help_heading = "Overrides of the scene")]
-    pub stiffness: Option<f64>,
-    /// Mass of every particle, kg
-    #[arg(long, value_name = "M", allow_negative_numbers = true, help_heading = "Overrides of the scene")]
-    pub mass: Option<f64>,
-    /// Gravity, m/s²
-    #[arg(long, value_name = "X,Y,Z", value_parser = triple, allow_hyphen_values = true, help_heading = "Overrides of the scene")]
-    pub gravity: Option<[f64; 3]>,
-    /// Initial velocity of the free particles, m/s
-    #[arg(long, value_name = "X,Y,Z", value_parser = triple, allow_hyphen_values = true, help_heading = "Overrides of the scene")]
-    pub velocity: Option<[f64; 3]>,
-    /// Pins instead of the scene's: none, min-y:D (within D m of the lowest y) or vertices:0,31
-    #[arg(long, value_name = "RULE", value_parser = pin_rule, help_heading = "Overrides of the scene")]
-    pub pin: Option<PinRule>,
+    /// What of the scene is to be otherwise.
+    #[command(flatten)]
+    pub overrides: Overrides,
 
     /// Folder for ParaView frames, energy plot and picture [default: out, unless --final or --json is given]
     #[arg(long, value_name = "DIR", help_heading = "Output")]
@@ -125,6 +117,26 @@ pub struct RunArgs {
     /// No progress and no summary
     #[arg(long, help_heading = "Output")]
     pub quiet: bool,
+}
+
+/// What of a scene is to be otherwise.
+#[derive(Debug, Clone, Default, Args)]
+pub struct Overrides {
+    /// Stiffness of every spring, N/m
+    #[arg(long, value_name = "K", allow_negative_numbers = true, help_heading = "Overrides of the scene")]
+    pub stiffness: Option<f64>,
+    /// Mass of every particle, kg
+    #[arg(long, value_name = "M", allow_negative_numbers = true, help_heading = "Overrides of the scene")]
+    pub mass: Option<f64>,
+    /// Gravity, m/s²
+    #[arg(long, value_name = "X,Y,Z", value_parser = triple, allow_hyphen_values = true, help_heading = "Overrides of the scene")]
+    pub gravity: Option<[f64; 3]>,
+    /// Initial velocity of the free particles, m/s
+    #[arg(long, value_name = "X,Y,Z", value_parser = triple, allow_hyphen_values = true, help_heading = "Overrides of the scene")]
+    pub velocity: Option<[f64; 3]>,
+    /// Pins instead of the scene's: none, min-y:D (within D m of the lowest y) or vertices:0,31
+    #[arg(long, value_name = "RULE", value_parser = pin_rule, help_heading = "Overrides of the scene")]
+    pub pin: Option<PinRule>,
 }
 
 /// Precision of a simulation.
