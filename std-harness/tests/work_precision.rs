@@ -24,7 +24,8 @@ fn errors(found: &Value, curve: &str) -> Vec<f64> {
 #[test]
 fn table_plot_and_json_have_a_row_and_a_curve_for_what_was_asked() {
     let folder = Scratch::new();
-    let line = "work-precision pair --method verlet,ros2 --dt 0.01,0.005 --accuracy 1e-5 --json f.json --out new";
+    let line =
+        "work-precision pair --method verlet,ros2 --dt 0.01,0.005 --accuracy 1e-5 --json f.json --out new";
     let said = folder.ok(line).stdout;
     assert_eq!(folder.names(), ["f.json", "new", "new/work-precision.csv", "new/work-precision.svg"]);
     let csv = fs::read_to_string(folder.path("new/work-precision.csv")).unwrap();
@@ -33,7 +34,7 @@ fn table_plot_and_json_have_a_row_and_a_curve_for_what_was_asked() {
     let column = |name: &str| header.iter().position(|n| *n == name).unwrap();
     let rows: Vec<Vec<&str>> = lines.map(|line| line.split(',').collect()).collect();
     let curves: Vec<&str> = rows.iter().map(|row| row[0]).collect();
-    assert_eq!(curves, ["ros2", "ros2", "verlet", "verlet", "\"verlet", "\"ros2", "\"verlet"], "{csv}");
+    assert_eq!(curves, ["ros2", "ros2", "verlet", "verlet", "\"ros2", "\"verlet"], "{csv}");
     let dts: Vec<f64> = rows[..4].iter().map(|row| row[column("dt_s")].parse().unwrap()).collect();
     assert_eq!(dts, [0.01, 0.005, 0.01, 0.005]);
     for row in &rows[..4] {
@@ -53,7 +54,8 @@ fn table_plot_and_json_have_a_row_and_a_curve_for_what_was_asked() {
 
 #[test]
 fn errors_fall_by_the_order_of_the_method() {
-    let methods = [("euler", 2.0), ("symplectic-euler", 2.0), ("midpoint", 4.0), ("verlet", 4.0), ("ros3", 8.0)];
+    let methods =
+        [("euler", 2.0), ("symplectic-euler", 2.0), ("midpoint", 4.0), ("verlet", 4.0), ("ros3", 8.0)];
     let names = methods.map(|(name, _)| name).join(",");
     let found = compared(&format!("pair --method {names} --dt 0.01,0.005,0.0025 --smallest 1e-9"));
     assert_eq!(found["reference"]["met"], true, "{}", found["reference"]);
@@ -103,7 +105,9 @@ fn the_verdict_names_a_method_for_every_decade_that_is_reached() {
     for decade in decades {
         let best = &decade["best"];
         assert!(["midpoint", "verlet", "euler"].iter().any(|name| best["curve"] == *name), "{decade}");
-        for other in ["second", "implicit", "explicit"].map(|key| &decade[key]).into_iter().filter(|o| !o.is_null()) {
+        for other in
+            ["second", "implicit", "explicit"].map(|key| &decade[key]).into_iter().filter(|o| !o.is_null())
+        {
             assert!(other["ms"].as_f64() >= best["ms"].as_f64(), "{decade}");
         }
     }
@@ -123,17 +127,24 @@ fn a_run_that_cannot_be_is_a_row_with_its_reason() {
 #[test]
 fn where_the_reference_is_not_certain_the_diagram_is_cut_and_says_so() {
     let folder = Scratch::new();
-    // Its rounding is some 1e-16 m, and no reference knows digits below that.
-    let options = "pair --method verlet --dt 0.01,1e-3 --accuracy 1e-28 --smallest 1e-17 --effort 0.2";
-    let said = folder.ok(&format!("work-precision {options} --repeats 1 --json f.json")).stdout;
-    let found: Value = serde_json::from_str(&fs::read_to_string(folder.path("f.json")).unwrap()).unwrap();
+    let said = |options: &str| {
+        let line = format!("work-precision pair --method verlet {options} --repeats 1 --json f.json");
+        let text = folder.ok(&line).stdout;
+        let found: Value = serde_json::from_str(&fs::read_to_string(folder.path("f.json")).unwrap()).unwrap();
+        (text, found)
+    };
+    // Positions are rounded to some 1e-16 m: no reference knows digits below that.
+    let (text, found) = said("--dt 0.01 --smallest 1e-17 --effort 0.2");
     assert_eq!(found["reference"]["met"], false);
-    assert!(said.contains("the diagram is cut"), "{said}");
+    assert!(text.contains("the diagram is cut"), "{text}");
+    // A reference for errors of 1 m tells nothing of one of 1e-6 m.
+    let (text, found) = said("--dt 0.05,1e-3 --smallest 1");
+    assert_eq!((&found["reference"]["met"], &found["dropped"]), (&true.into(), &1.into()));
+    assert!(text.contains("1 of 2 runs are more accurate than the reference can tell"), "{text}");
     let certain = found["reference"]["certain_from_m"].as_f64().unwrap();
-    for run in found["runs"].as_array().unwrap() {
-        let (error, dropped) = (run["error_m"].as_f64(), run["dropped"].as_bool().unwrap());
-        assert!(error.is_none_or(|error| error >= certain && !dropped), "{run}");
-    }
+    let [coarse, fine] = &found["runs"].as_array().unwrap()[..] else { panic!("{found}") };
+    assert!(coarse["error_m"].as_f64().unwrap() >= certain && coarse["dropped"] == false, "{coarse}");
+    assert!(fine["error_m"].is_null() && fine["dropped"] == true, "{fine}");
 }
 
 #[test]
@@ -161,7 +172,9 @@ fn bad_options_are_refused_in_a_line_and_nothing_is_written() {
         ("pair --json no/such/folder.json", ["no/such/folder.json", "cannot write"]),
         ("pair --steps 3", ["--steps", ""]),
     ];
-    let wrong: Vec<String> =
-        refusals.iter().filter_map(|(line, words)| folder.refuses(&format!("work-precision {line}"), words).err()).collect();
+    let wrong: Vec<String> = refusals
+        .iter()
+        .filter_map(|(line, words)| folder.refuses(&format!("work-precision {line}"), words).err())
+        .collect();
     assert!(wrong.is_empty(), "{}", wrong.concat());
 }

@@ -51,7 +51,7 @@ pub struct Arguments {
     #[arg(
         long,
         value_name = "R",
-        default_value_t = 1e-8,
+        default_value = "1e-8",
         allow_negative_numbers = true,
         help_heading = "What is compared"
     )]

@@ -44,6 +44,7 @@ impl Diagram {
     /// Judges the runs.
     pub fn new(study: &Study, reference: Reference, runs: Vec<Row>) -> Self {
         let model = &study.plan.model;
+        let verdict = verdict(study, &runs, reference.certain_from);
         Self {
             scene: model.name.clone(),
             particles: model.position.len(),
@@ -54,7 +55,7 @@ impl Diagram {
             size_m: study.size,
             reference,
             dropped: runs.iter().filter(|row| row.dropped).count(),
-            verdict: verdict(study, &runs),
+            verdict,
             runs,
         }
     }
@@ -90,7 +91,10 @@ impl Diagram {
         line("reference", &self.certificate());
         if !self.reference.met {
             let most = format!("more than --effort {:?} s, or rounding, allows", study.effort);
-            line("", &format!("errors down to {:.1e} m would take {most}: the diagram is cut", study.smallest));
+            line(
+                "",
+                &format!("errors down to {:.1e} m would take {most}: the diagram is cut", study.smallest),
+            );
         }
         if self.dropped > 0 {
             let why = "more accurate than the reference can tell: not in the diagram";

@@ -106,6 +106,7 @@ fn failed(plan: &Plan, done: &Done, step: u64, error: StepError) -> Stopped {
     let time = done.simulation.reached().unwrap_or(plan.dt * (step - 1) as f64);
     let step = if plan.accuracy.is_some() { "a step".into() } else { format!("step {step}") };
     let attained = done.simulation.attained().filter(|joules| error == StepError::Accuracy && *joules > 0.0);
-    let least = attained.map_or(String::new(), |joules| format!("; attainable is about {joules:.1e} J a step"));
+    let least =
+        attained.map_or(String::new(), |joules| format!("; attainable is about {joules:.1e} J a step"));
     Stopped::Failed(format!("{step} failed at t = {time:.4} s: {error}{least}"))
 }

@@ -5,6 +5,7 @@ use std::ops::Range;
 use std::path::Path;
 
 use plotters::coord::Shift;
+use plotters::coord::ranged1d::{DefaultFormatting, KeyPointHint};
 use plotters::prelude::*;
 
 use super::diagram::Diagram;
@@ -79,10 +80,7 @@ fn draw(root: &Area<'_>, study: &Study, diagram: &Diagram) -> Drawn {
         .margin_bottom(px(10))
         .x_label_area_size(px(46))
         .y_label_area_size(px(66))
-        .build_cartesian_2d(
-            x.range.clone().with_key_points(x.ticks.clone()),
-            y.range.clone().with_key_points(y.ticks.clone()),
-        )?;
+        .build_cartesian_2d(x.clone(), y.clone())?;
     chart
         .configure_mesh()
         .axis_style(RGBColor(0x9a, 0xa5, 0xb1).stroke_width(FINE))
@@ -167,6 +165,7 @@ fn colour(curve: Curve) -> RGBColor {
 }
 
 /// A logarithmic axis: the range of log₁₀, and where its ticks are.
+#[derive(Clone)]
 struct Axis {
     range: Range<f64>,
     ticks: Vec<f64>,
@@ -183,6 +182,24 @@ impl Axis {
         let powers = range.start.floor() as i32..=range.end.ceil() as i32;
         let ticks = powers.flat_map(|power| digits.iter().map(move |digit| f64::from(power) + digit.log10()));
         Self { ticks: ticks.filter(|tick| range.contains(tick)).collect(), range }
+    }
+}
+
+impl Ranged for Axis {
+    type FormatOption = DefaultFormatting;
+    type ValueType = f64;
+
+    fn map(&self, value: &f64, limit: (i32, i32)) -> i32 {
+        let share = (value - self.range.start) / (self.range.end - self.range.start);
+        limit.0 + (share * f64::from(limit.1 - limit.0)).round() as i32
+    }
+
+    fn key_points<Hint: KeyPointHint>(&self, _: Hint) -> Vec<f64> {
+        self.ticks.clone()
+    }
+
+    fn range(&self) -> Range<f64> {
+        self.range.clone()
     }
 }
 

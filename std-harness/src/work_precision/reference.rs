@@ -5,7 +5,7 @@
 //! x = x(h/2) + (x(h/2) − x(h)) / (2ᵖ − 1)
 //!
 //! is better than both (Richardson). As certain as a reference is taken what its last two x differ by, over all particles; the steps
-//! are halved until that is a hundredth of the smallest error of interest, until it shrinks no more, or until the effort is
+//! are halved until that is a hundredth of the smallest error that will be seen, until it shrinks no more, or until the effort is
 //! spent. Verlet has the first half of it: where steps have to be small anyway nothing is cheaper. Where that does not do,
 //! `ros3` has the rest, and the one that got further is taken.
 //!
@@ -24,6 +24,8 @@ use crate::run::integrator::Integrator;
 
 /// Shown are errors so many times as large as what is uncertain.
 pub const DIGITS: f64 = 100.0;
+/// Where a halving goes past the smallest error of interest, it goes past it by this at most, if the order is at most 4.
+const PAST: f64 = 16.0;
 /// Relative tolerance of the solves.
 const TOLERANCE: f64 = 1e-12;
 
@@ -88,7 +90,7 @@ fn ladder(
         Integrator::Verlet => (3.0, 0.5 * limit(study, method).map_err(|why| format!("{name}: {why}"))?),
         _ => (7.0, study.plan.model.dt),
     };
-    let wanted = study.smallest / DIGITS;
+    let wanted = study.smallest / (PAST * DIGITS);
     let mut steps = steps_of(study.plan.seconds, longest).max(8.0);
     let (mut levels, mut better): (Vec<Vec<[f64; 3]>>, Vec<Vec<[f64; 3]>>) = (Vec::new(), Vec::new());
     let (mut best, mut left, mut last, mut vain): (Option<Reference>, _, _, _) = (None, effort, 0.0, 0);

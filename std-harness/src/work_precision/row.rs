@@ -116,7 +116,7 @@ pub fn run(study: &Study, reference: &Reference, curve: Curve, setting: Setting)
 
 /// The least times, ms: of the thread, and passed.
 fn repeated(study: &Study, plan: &Plan, first: &Done) -> (f64, f64) {
-    let times = |done: &Done| (1e3 * done.cpu.as_secs_f64(), 1e3 * done.wall.as_secs_f64());
+    let times = |done: &Done| (done.cpu.as_nanos() as f64 / 1e6, done.wall.as_nanos() as f64 / 1e6);
     let mut least = times(first);
     for _ in 1..study.repeats {
         if first.cpu.as_secs_f64() > LONG {
@@ -174,7 +174,10 @@ fn judged(
         .then(|| (0..3).map(|c| (momentum[c] - done.momentum[c]).powi(2)).sum::<f64>().sqrt());
     row.dropped = error < reference.certain_from;
     match row.dropped {
-        true => row.note = format!("error below {:.1e} m, where the reference is not certain", reference.certain_from),
+        true => {
+            row.note =
+                format!("error below {:.1e} m, where the reference is not certain", reference.certain_from)
+        }
         false => row.error = Some(error),
     }
     row

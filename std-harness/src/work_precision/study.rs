@@ -92,9 +92,13 @@ impl Study {
     pub fn new(args: &Arguments) -> Result<Self, InputError> {
         let seconds = positive("--seconds", args.seconds)?;
         let accuracies = accuracies(&args.accuracy)?;
-        let curves = curves(&args.methods, &accuracies)?;
+        let mut curves = curves(&args.methods, &accuracies)?;
         if args.repeats == 0 {
             return Err(InputError::new("--repeats 0: at least 1"));
+        }
+        if !args.dt.is_empty() {
+            // Rows as they were asked for.
+            curves.retain(|curve| curve.steps != Steps::Cut);
         }
         let auto = args.solver == "auto";
         let mut plan = Plan::new(&RunArgs {
@@ -221,7 +225,8 @@ fn curves(names: &[String], accuracies: &[f64]) -> Result<Vec<Curve>, InputError
     for name in names {
         wanted[known("--method", name, &all)?] = true;
     }
-    let methods = INTEGRATORS.iter().zip(wanted).filter(|(_, wanted)| *wanted).map(|((_, method), _)| *method);
+    let methods =
+        INTEGRATORS.iter().zip(wanted).filter(|(_, wanted)| *wanted).map(|((_, method), _)| *method);
     let methods: Vec<Integrator> = methods.collect();
     let curve = |steps| move |method| Curve { method, steps };
     let fixed = methods.iter().copied().filter(|method| *method != Integrator::Auto);

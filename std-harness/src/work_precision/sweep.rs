@@ -35,12 +35,12 @@ pub fn sweep(study: &Study, reference: &Reference, progress: &Progress) -> Vec<R
         let mut made = 0;
         let mut next = first(study, curve, 0);
         while let Some(setting) = next.take() {
-            let row = match setting {
+            let row = match &setting {
                 Ok(setting) => {
-                    progress.says(&said(study, curve, setting));
-                    row::run(study, reference, curve, setting)
+                    progress.says(&said(study, curve, *setting));
+                    row::run(study, reference, curve, *setting)
                 }
-                Err(why) => Row::without(curve, Setting::Steps(1), study.plan.seconds, why),
+                Err(why) => Row::without(curve, Setting::Steps(1), study.plan.seconds, why.clone()),
             };
             progress.counts();
             made += 1;
@@ -65,7 +65,12 @@ fn first(study: &Study, curve: Curve, made: usize) -> Option<Result<Setting, Str
     let seconds = study.plan.seconds;
     match curve.steps {
         Steps::Chosen => study.accuracies.get(made).map(|joules| Ok(Setting::Accuracy(*joules))),
-        Steps::Cut => (made == 0).then(|| Ok(Setting::Steps(steps_of(seconds, study.plan.model.dt) as u64))),
+        Steps::Cut
+            if made > 0 || !limit(study, curve.method).is_ok_and(|most| most < study.plan.model.dt) =>
+        {
+            None
+        }
+        Steps::Cut => Some(Ok(Setting::Steps(steps_of(seconds, study.plan.model.dt) as u64))),
         Steps::Fixed if !study.steps.is_empty() => {
             study.steps.get(made).map(|steps| Ok(Setting::Steps(*steps)))
         }

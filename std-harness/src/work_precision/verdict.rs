@@ -16,7 +16,7 @@ pub struct Reach {
     pub ms: f64,
     /// Its step there, s.
     pub dt: f64,
-    /// Is that its coarsest run, so that a longer step might do it in less time?
+    /// Might it be less? So it is where that is its coarsest run, or the run beyond is more accurate than the reference can tell.
     pub at_most: bool,
 }
 
@@ -37,21 +37,22 @@ pub struct Decade {
 }
 
 /// Judges every decade that some curve reaches, from large errors to small ones.
-pub fn verdict(study: &Study, rows: &[Row]) -> Vec<Decade> {
+pub fn verdict(study: &Study, rows: &[Row], certain_from: f64) -> Vec<Decade> {
     let errors = || rows.iter().filter_map(|row| row.point()).map(|(_, error)| error.log10());
     let (low, high) = errors().fold((f64::INFINITY, f64::NEG_INFINITY), |(l, h), e| (l.min(e), h.max(e)));
     if !(low <= high) {
         return Vec::new();
     }
-    let (from, to) = (high.ceil() as i32, low.ceil() as i32);
-    (to..=from).rev().filter_map(|power| decade(study, rows, 10_f64.powi(power))).collect()
+    let to = low.ceil() as i32;
+    let from = if (high.floor() as i32) < to { to } else { high.floor() as i32 };
+    (to..=from).rev().filter_map(|power| decade(study, rows, certain_from, 10_f64.powi(power))).collect()
 }
 
-fn decade(study: &Study, rows: &[Row], error: f64) -> Option<Decade> {
+fn decade(study: &Study, rows: &[Row], certain_from: f64, error: f64) -> Option<Decade> {
     let of = |curve: &Curve| {
         let name = curve.name();
         let own: Vec<&Row> = rows.iter().filter(|row| row.curve == name).collect();
-        reach(&own, error).map(|reach| (curve.method, reach))
+        reach(&own, certain_from, error).map(|reach| (curve.method, reach))
     };
     let mut all: Vec<(Integrator, Reach)> = study.curves.iter().filter_map(of).collect();
     all.sort_by(|a, b| a.1.ms.total_cmp(&b.1.ms));
@@ -68,7 +69,7 @@ fn decade(study: &Study, rows: &[Row], error: f64) -> Option<Decade> {
 }
 
 /// The least time of a curve, its runs from coarse to fine, for an error.
-fn reach(rows: &[&Row], error: f64) -> Option<Reach> {
+fn reach(rows: &[&Row], certain_from: f64, error: f64) -> Option<Reach> {
     let mut best: Option<Reach> = None;
     let mut offer = |curve: &str, ms: f64, dt: f64, at_most: bool| {
         if best.as_ref().is_none_or(|best| ms < best.ms) {
@@ -77,7 +78,9 @@ fn reach(rows: &[&Row], error: f64) -> Option<Reach> {
     };
     let mut before: Option<(f64, f64, f64)> = None;
     for row in rows {
-        let (Some((ms, found)), Some(dt)) = (row.point(), row.dt) else {
+        // Of a run that is more accurate than the reference can tell, that much is known.
+        let point = row.point().or(row.ms.filter(|_| row.dropped).map(|ms| (ms, certain_from)));
+        let (Some((ms, found)), Some(dt)) = (point, row.dt) else {
             before = None;
             continue;
         };
@@ -85,9 +88,9 @@ fn reach(rows: &[&Row], error: f64) -> Option<Reach> {
             Some((ms0, found0, dt0)) if found0 > error && found <= error => {
                 let s = (found0 / error).ln() / (found0 / found).ln();
                 let between = |a: f64, b: f64| a * (b / a).powf(s);
-                offer(&row.curve, between(ms0, ms), between(dt0, dt), false);
+                offer(&row.curve, between(ms0, ms), between(dt0, dt), row.dropped);
             }
-            _ if found <= error => offer(&row.curve, ms, dt, before.is_none()),
+            _ if found <= error => offer(&row.curve, ms, dt, row.dropped || before.is_none()),
             _ => {}
         }
         before = Some((ms, found, dt));
@@ -111,7 +114,7 @@ mod tests {
 
     fn reached(points: &[(f64, f64)], error: f64) -> Option<(f64, bool)> {
         let rows = curve(points);
-        reach(&rows.iter().collect::<Vec<_>>(), error).map(|reach| (reach.ms, reach.at_most))
+        reach(&rows.iter().collect::<Vec<_>>(), 0.0, error).map(|reach| (reach.ms, reach.at_most))
     }
 
     #[test]
