@@ -17,7 +17,7 @@ pub struct Arguments {
     pub methods: Vec<String>,
     /// Steps to try, s, each made a little shorter so that --seconds is a whole number of them [default: the scene's own, for
     /// explicit methods 0.95 of their limit, and its half, quarter, … until the error is below --smallest, or some other run
-    /// was 30 times faster with no larger error]
+    /// was 10 times faster with no larger error]
     #[arg(
         long,
         value_name = "S,S,…",
@@ -60,7 +60,7 @@ pub struct Arguments {
     /// Time each run so often and keep the least; one of more than a second is timed once
     #[arg(long, value_name = "N", default_value_t = 3, help_heading = "Effort")]
     pub repeats: u32,
-    /// The smallest error of interest, m; the reference is to be 100 times as certain [default: a millionth of the scene's size]
+    /// The smallest error of interest, m; the reference is to be 100 times as certain [default: the power of ten at or below a millionth of the scene's size]
     #[arg(long, value_name = "E", allow_negative_numbers = true, help_heading = "Effort")]
     pub smallest: Option<f64>,
     /// At most so much time for the reference, s; where it is not certain, the diagram is cut

@@ -115,10 +115,12 @@ fn draw(root: &Area<'_>, study: &Study, diagram: &Diagram) -> Drawn {
         } else {
             chart.draw_series(LineSeries::new(own.iter().copied(), style))?;
         }
-        // A triangle for explicit methods, a disc for the others; a ring where steps are chosen.
+        // A triangle for explicit methods, a disc for the others; a ring where steps are chosen, a cross where they are cut.
         let (own, colour) = (own.into_iter(), colour(*curve));
         if curve.steps == Steps::Chosen {
             chart.draw_series(own.map(|point| Circle::new(point, px(4), colour.stroke_width(px(2)))))?;
+        } else if curve.steps == Steps::Cut {
+            chart.draw_series(own.map(|point| Cross::new(point, px(5), colour.stroke_width(px(3)))))?;
         } else if curve.method.is_explicit() {
             chart.draw_series(own.map(|point| TriangleMarker::new(point, px(6), colour.filled())))?;
         } else {
@@ -149,6 +151,8 @@ fn legend(root: &Area<'_>, curve: Curve, row: u32) -> Drawn {
     let (middle, colour) = (at(left + 15, y), colour(curve));
     if curve.steps == Steps::Chosen {
         root.draw(&Circle::new(middle, px(4), colour.stroke_width(px(2))))?;
+    } else if curve.steps == Steps::Cut {
+        root.draw(&Cross::new(middle, px(5), colour.stroke_width(px(3))))?;
     } else if curve.method.is_explicit() {
         root.draw(&TriangleMarker::new(middle, px(6), colour.filled()))?;
     } else {

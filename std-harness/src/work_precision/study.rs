@@ -118,7 +118,10 @@ impl Study {
         let size = size(&plan.model.position);
         Ok(Self {
             steps: steps(&args.dt, seconds)?,
-            smallest: positive("--smallest", args.smallest.unwrap_or(1e-6 * size))?,
+            smallest: positive(
+                "--smallest",
+                args.smallest.unwrap_or(10_f64.powf((1e-6 * size).log10().floor())),
+            )?,
             effort: positive("--effort", args.effort)?,
             files: ["work-precision.csv", "work-precision.svg"].map(|name| args.out.join(name)),
             out: args.out.clone(),

@@ -11,8 +11,8 @@ use crate::run::simulation::Simulation;
 const NEAR: f64 = 0.95;
 /// A curve has at least so many points before it may end for being slow.
 const LEAST: usize = 4;
-/// It ends there where so much less time gives no larger error.
-const SLOWER: f64 = 30.0;
+/// It ends there where so many times less time gives no larger error.
+const SLOWER: f64 = 10.0;
 /// No curve has more points than this.
 const MOST: usize = 14;
 
@@ -94,7 +94,8 @@ fn ends(study: &Study, reference: &Reference, rows: &[(usize, Row)], row: &Row, 
         return true;
     }
     let beaten = |other: &Row| other.point().is_some_and(|(t, e)| e <= error && SLOWER * t < ms);
-    made >= LEAST && rows.iter().any(|(_, other)| beaten(other))
+    // A step that gives no answer at all says nothing of the next.
+    made >= LEAST && error < 0.1 * study.size && rows.iter().any(|(_, other)| beaten(other))
 }
 
 fn said(study: &Study, curve: Curve, setting: Setting) -> String {

@@ -43,8 +43,12 @@ pub fn verdict(study: &Study, rows: &[Row], certain_from: f64) -> Vec<Decade> {
     if !(low <= high) {
         return Vec::new();
     }
-    let to = low.ceil() as i32;
-    let from = if (high.floor() as i32) < to { to } else { high.floor() as i32 };
+    // As far off as a tenth of the scene is no answer; what is smaller than what is of interest was not looked for.
+    let most = (0.1 * study.size).log10().floor();
+    let (from, to) = (if high.floor() < most { high.floor() } else { most }, low.ceil());
+    let least = (study.smallest.log10() - 1e-9).ceil();
+    let to = if to < least { least } else { to };
+    let (from, to) = (if from < to { to as i32 } else { from as i32 }, to as i32);
     (to..=from).rev().filter_map(|power| decade(study, rows, certain_from, 10_f64.powi(power))).collect()
 }
 
