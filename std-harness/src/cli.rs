@@ -9,6 +9,7 @@ use crate::error::InputError;
 use crate::nearest;
 use crate::run::rest::RestArgs;
 use crate::scene::PinRule;
+use crate::work_precision::arguments::Arguments;
 
 /// Simulate mass-spring systems, with an error bound on every linear solve.
 ///
@@ -29,6 +30,9 @@ pub enum Command {
     Run(Box<RunArgs>),
     /// Find where a scene comes to rest under its forces
     Rest(Box<RestArgs>),
+    /// Compare methods on a scene: error against time, with a reference that certifies itself
+    #[command(after_help = scenes())]
+    WorkPrecision(Box<Arguments>),
     /// Say what is in a mesh file
     Info(InfoArgs),
 }
@@ -97,21 +101,9 @@ pub struct RunArgs {
     #[arg(long, value_enum, default_value_t = Precision::F64, help_heading = "Method")]
     pub precision: Precision,
 
-    /// Stiffness of every spring, N/m
-    #[arg(long, value_name = "K", allow_negative_numbers = true, help_heading = "Overrides of the scene")]
-    pub stiffness: Option<f64>,
-    /// Mass of every particle, kg
-    #[arg(long, value_name = "M", allow_negative_numbers = true, help_heading = "Overrides of the scene")]
-    pub mass: Option<f64>,
-    /// Gravity, m/s²
-    #[arg(long, value_name = "X,Y,Z", value_parser = triple, allow_hyphen_values = true, help_heading = "Overrides of the scene")]
-    pub gravity: Option<[f64; 3]>,
-    /// Initial velocity of the free particles, m/s
-    #[arg(long, value_name = "X,Y,Z", value_parser = triple, allow_hyphen_values = true, help_heading = "Overrides of the scene")]
-    pub velocity: Option<[f64; 3]>,
-    /// Pins instead of the scene's: none, min-y:D (within D m of the lowest y) or vertices:0,31
-    #[arg(long, value_name = "RULE", value_parser = pin_rule, help_heading = "Overrides of the scene")]
-    pub pin: Option<PinRule>,
+    /// What of the scene is to be otherwise.
+    #[command(flatten)]
+    pub overrides: Overrides,
 
     /// Begin with the positions and velocities of this file, which --final of a run, or hooke rest, has written
     #[arg(long, value_name = "FILE", help_heading = "Overrides of the scene")]
@@ -132,6 +124,26 @@ pub struct RunArgs {
     /// No progress and no summary
     #[arg(long, help_heading = "Output")]
     pub quiet: bool,
+}
+
+/// What of a scene is to be otherwise.
+#[derive(Debug, Clone, Default, Args)]
+pub struct Overrides {
+    /// Stiffness of every spring, N/m
+    #[arg(long, value_name = "K", allow_negative_numbers = true, help_heading = "Overrides of the scene")]
+    pub stiffness: Option<f64>,
+    /// Mass of every particle, kg
+    #[arg(long, value_name = "M", allow_negative_numbers = true, help_heading = "Overrides of the scene")]
+    pub mass: Option<f64>,
+    /// Gravity, m/s²
+    #[arg(long, value_name = "X,Y,Z", value_parser = triple, allow_hyphen_values = true, help_heading = "Overrides of the scene")]
+    pub gravity: Option<[f64; 3]>,
+    /// Initial velocity of the free particles, m/s
+    #[arg(long, value_name = "X,Y,Z", value_parser = triple, allow_hyphen_values = true, help_heading = "Overrides of the scene")]
+    pub velocity: Option<[f64; 3]>,
+    /// Pins instead of the scene's: none, min-y:D (within D m of the lowest y) or vertices:0,31
+    #[arg(long, value_name = "RULE", value_parser = pin_rule, help_heading = "Overrides of the scene")]
+    pub pin: Option<PinRule>,
 }
 
 /// Precision of a simulation.
@@ -155,7 +167,7 @@ pub enum Renumber {
 }
 
 /// Three numbers, `X,Y,Z`.
-pub(crate) fn triple(text: &str) -> Result<[f64; 3], String> {
+fn triple(text: &str) -> Result<[f64; 3], String> {
     let parts: Vec<&str> = text.split(',').map(str::trim).collect();
     let [x, y, z] = parts.as_slice() else { return Err("expected three numbers, as in 0,-9.81,0".into()) };
     let number = |part: &str| match part.parse::<f64>() {
@@ -165,7 +177,7 @@ pub(crate) fn triple(text: &str) -> Result<[f64; 3], String> {
     Ok([number(x)?, number(y)?, number(z)?])
 }
 
-pub(crate) fn pin_rule(text: &str) -> Result<PinRule, String> {
+fn pin_rule(text: &str) -> Result<PinRule, String> {
     text.parse().map_err(|error: InputError| error.message)
 }
 

@@ -10,3 +10,4 @@ pub mod nearest;
 pub mod output;
 pub mod run;
 pub mod scene;
+pub mod work_precision;

@@ -7,6 +7,7 @@ use hooke_harness::cli::{self, Command};
 use hooke_harness::error::InputError;
 use hooke_harness::mesh;
 use hooke_harness::run::{self, RunError, rest};
+use hooke_harness::work_precision;
 
 fn main() -> ExitCode {
     let arguments: Result<Vec<String>, _> = std::env::args_os().map(|a| a.into_string()).collect();
@@ -23,16 +24,9 @@ fn main() -> ExitCode {
         Err(Err(error)) => return refused(&error),
     };
     match command {
-        Command::Run(args) => match run::run(&args) {
-            Ok(summary) => said(&summary),
-            Err(RunError::Input(error)) => refused(&error),
-            Err(RunError::Failed(message)) => complained(&message, 1),
-        },
-        Command::Rest(args) => match rest::rest(&args) {
-            Ok(summary) => said(&summary),
-            Err(RunError::Input(error)) => refused(&error),
-            Err(RunError::Failed(message)) => complained(&message, 1),
-        },
+        Command::Run(args) => ended(run::run(&args)),
+        Command::Rest(args) => ended(rest::rest(&args)),
+        Command::WorkPrecision(args) => ended(work_precision::run(&args)),
         Command::Info(args) => match mesh::info(&args.mesh) {
             Ok(info) if args.json => match serde_json::to_string_pretty(&info) {
                 Ok(json) => said(&format!("{json}\n")),
@@ -41,6 +35,15 @@ fn main() -> ExitCode {
             Ok(info) => said(&info.to_string()),
             Err(error) => refused(&error),
         },
+    }
+}
+
+/// What a command that simulates came to.
+fn ended(result: Result<String, RunError>) -> ExitCode {
+    match result {
+        Ok(summary) => said(&summary),
+        Err(RunError::Input(error)) => refused(&error),
+        Err(RunError::Failed(message)) => complained(&message, 1),
     }
 }
 

@@ -4,7 +4,7 @@
 use std::borrow::Cow;
 use std::path::{Path, PathBuf};
 
-use crate::cli::{Precision, Renumber, RunArgs};
+use crate::cli::{Overrides, Precision, Renumber, RunArgs};
 use crate::error::InputError;
 use crate::nearest;
 use crate::output::safe;
@@ -70,7 +70,7 @@ pub struct Plan {
 }
 
 /// A number that must be positive and finite.
-fn positive(name: &str, x: f64) -> Result<f64, InputError> {
+pub fn positive(name: &str, x: f64) -> Result<f64, InputError> {
     if x.is_finite() && x > 0.0 {
         Ok(x)
     } else {
@@ -79,7 +79,7 @@ fn positive(name: &str, x: f64) -> Result<f64, InputError> {
 }
 
 /// A number that must be finite and not negative.
-fn not_negative(name: &str, x: f64) -> Result<f64, InputError> {
+pub fn not_negative(name: &str, x: f64) -> Result<f64, InputError> {
     if x.is_finite() && x >= 0.0 {
         Ok(x)
     } else {
@@ -88,7 +88,7 @@ fn not_negative(name: &str, x: f64) -> Result<f64, InputError> {
 }
 
 /// Which of the names it is.
-fn known(what: &str, name: &str, names: &[&str]) -> Result<usize, InputError> {
+pub fn known(what: &str, name: &str, names: &[&str]) -> Result<usize, InputError> {
     if let Some(place) = names.iter().position(|known| *known == name) {
         return Ok(place);
     }
@@ -110,7 +110,7 @@ impl Plan {
             start::from_file(&mut model, file)?;
             inputs.push(file.clone());
         }
-        override_model(&mut model, args)?;
+        override_model(&mut model, &args.overrides)?;
 
         let fps = positive("--fps", args.fps.or(wanted.fps).unwrap_or(60.0))?;
         let first = positive("--dt", args.dt.unwrap_or(model.dt))?;
@@ -281,7 +281,7 @@ fn fits(
 }
 
 /// A path that is the same for all spellings of one file, which need not exist.
-fn resolved(path: &Path) -> PathBuf {
+pub fn resolved(path: &Path) -> PathBuf {
     if let Ok(path) = path.canonicalize() {
         return path;
     }
@@ -311,18 +311,18 @@ fn renumbered(model: &mut Model) -> Option<Numbering> {
     better.then_some(numbering)
 }
 
-fn override_model(model: &mut Model, args: &RunArgs) -> Result<(), InputError> {
-    if let Some(k) = args.stiffness {
+fn override_model(model: &mut Model, to: &Overrides) -> Result<(), InputError> {
+    if let Some(k) = to.stiffness {
         let k = not_negative("--stiffness", k)?;
         model.springs.iter_mut().for_each(|spring| spring.stiffness = k);
     }
-    if let Some(m) = args.mass {
+    if let Some(m) = to.mass {
         model.mass.fill(positive("--mass", m)?);
     }
-    if let Some(g) = args.gravity {
+    if let Some(g) = to.gravity {
         model.gravity = g;
     }
-    if let Some(rule) = &args.pin {
+    if let Some(rule) = &to.pin {
         model.pinned =
             rule.apply(&model.position).map_err(|e| InputError::new(format!("--pin: {}", e.message)))?;
         // A path belongs to pins; those that the new rule lets go have none.
@@ -330,7 +330,7 @@ fn override_model(model: &mut Model, args: &RunArgs) -> Result<(), InputError> {
             moving.particles.retain(|i| model.pinned[*i]);
         }
     }
-    if let Some(v) = args.velocity {
+    if let Some(v) = to.velocity {
         for (velocity, pinned) in model.velocity.iter_mut().zip(&model.pinned) {
             *velocity = if *pinned { [0.0; 3] } else { v };
         }

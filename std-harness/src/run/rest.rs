@@ -18,10 +18,9 @@ use super::RunError;
 use super::plan::Plan;
 use super::simulation::Simulation;
 use super::summary::grouped;
-use crate::cli::{Precision, Renumber, RunArgs, pin_rule, triple};
+use crate::cli::{Overrides, Precision, Renumber, RunArgs};
 use crate::error::InputError;
 use crate::output::safe;
-use crate::scene::PinRule;
 use crate::scene::graph::{Graph, NOWHERE};
 
 /// Options of `hooke rest`.
@@ -35,18 +34,9 @@ pub struct RestArgs {
     /// Linear solver, as in hooke run
     #[arg(long, value_name = "NAME", default_value = "auto")]
     pub solver: String,
-    /// Stiffness of every spring, N/m
-    #[arg(long, value_name = "K", allow_negative_numbers = true, help_heading = "Overrides of the scene")]
-    pub stiffness: Option<f64>,
-    /// Mass of every particle, kg
-    #[arg(long, value_name = "M", allow_negative_numbers = true, help_heading = "Overrides of the scene")]
-    pub mass: Option<f64>,
-    /// Gravity, m/s²
-    #[arg(long, value_name = "X,Y,Z", value_parser = triple, allow_hyphen_values = true, help_heading = "Overrides of the scene")]
-    pub gravity: Option<[f64; 3]>,
-    /// Pins instead of the scene's: none, min-y:D (within D m of the lowest y) or vertices:0,31
-    #[arg(long, value_name = "RULE", value_parser = pin_rule, help_heading = "Overrides of the scene")]
-    pub pin: Option<PinRule>,
+    /// What of the scene is to be otherwise.
+    #[command(flatten)]
+    pub overrides: Overrides,
     /// Begin at the positions of this file, which --final of a run has written
     #[arg(long, value_name = "FILE", help_heading = "Overrides of the scene")]
     pub from: Option<PathBuf>,
@@ -196,10 +186,7 @@ fn plan(args: &RestArgs) -> Result<Plan, InputError> {
         integrator: "newton".into(),
         tolerance: Some(TOLERANCE),
         solver: args.solver.clone(),
-        stiffness: args.stiffness,
-        mass: args.mass,
-        gravity: args.gravity,
-        pin: args.pin.clone(),
+        overrides: args.overrides.clone(),
         from: args.from.clone(),
         final_csv: Some(args.final_csv.clone().unwrap_or_else(|| PathBuf::from("out/rest.csv"))),
         json: args.json.clone(),

@@ -238,10 +238,12 @@ impl<T: Real + Display> Simulation<T> {
         let mut reports = Vec::new();
         while chosen.time < moment {
             let left = chosen.end - chosen.time;
-            let before = (chosen.time, lists(&self.scene));
+            // At the end no moment lies within a step.
+            if moment < chosen.end {
+                chosen.before = (chosen.time, lists(&self.scene));
+            }
             self.integrator.end_after(T::from_f64(left));
             reports.push(self.integrator.step(&mut self.scene, &[])?);
-            chosen.before = before;
             let Some((made, _)) = self.integrator.made() else { break };
             let dt = made.dt.to_f64();
             // The last step ends at the end, whatever its rounding.
@@ -306,6 +308,11 @@ impl<T: Real + Display> Simulation<T> {
     /// After [`StepError::Accuracy`]: the least error of a step, J.
     pub fn attained(&self) -> Option<f64> {
         self.integrator.made().map(|(_, attained)| attained.to_f64())
+    }
+
+    /// The largest step that an explicit method is stable with, s; `None` for the others.
+    pub fn limit(&mut self) -> Option<f64> {
+        self.integrator.limit(&mut self.scene).map(T::to_f64)
     }
 
     /// Energies at a time, J.
