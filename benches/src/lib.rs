@@ -33,10 +33,12 @@ mod growth;
 mod growth_plot;
 mod measure;
 mod output;
+mod outside;
 mod row;
 mod summary;
 mod table;
 mod weights;
 
 pub use compare::main as compare;
+pub use outside::main as outside;
 pub use moving::{Euler, HostScene, moving};
