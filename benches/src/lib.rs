@@ -40,5 +40,5 @@ mod table;
 mod weights;
 
 pub use compare::main as compare;
-pub use outside::main as outside;
 pub use moving::{Euler, HostScene, moving};
+pub use outside::main as outside;

@@ -15,11 +15,12 @@ use hooke_harness::run::RunError;
 use hooke_harness::run::integrator::Integrator;
 use hooke_harness::scene::Model;
 use hooke_harness::work_precision::arguments::Arguments;
+use hooke_harness::work_precision::curve::{Curve, Setting, Steps};
 use hooke_harness::work_precision::diagram::Diagram;
 use hooke_harness::work_precision::progress::Progress;
 use hooke_harness::work_precision::reference::{self, Reference, farthest};
 use hooke_harness::work_precision::row::Row;
-use hooke_harness::work_precision::study::{Curve, Setting, Steps, Study};
+use hooke_harness::work_precision::study::Study;
 use hooke_harness::work_precision::{self, sweep};
 use ode_solvers::{DVector, Dop853, Dopri5, System};
 

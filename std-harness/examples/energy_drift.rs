@@ -100,7 +100,7 @@ fn plot(file: &Path, title: &str, curves: &[Curve]) -> Result<(), Box<dyn Error>
         let colour = Palette99::pick(k).to_rgba();
         let points = || samples.iter().map(|(step, drift)| (*step as f64, *drift));
         chart.draw_series(LineSeries::new(points(), colour.stroke_width(2)))?;
-        if let Some(end) = points().last() {
+        if let Some(end) = points().next_back() {
             chart.draw_series([Text::new(*name, end, ("sans-serif", 14).into_font().color(&colour))])?;
         }
     }

@@ -105,10 +105,6 @@ pub struct RunArgs {
     #[command(flatten)]
     pub overrides: Overrides,
 
-    /// Begin with the positions and velocities of this file, which --final of a run, or hooke rest, has written
-    #[arg(long, value_name = "FILE", help_heading = "Overrides of the scene")]
-    pub from: Option<PathBuf>,
-
     /// Folder for ParaView frames, energy plot and picture [default: out, unless --final or --json is given]
     #[arg(long, value_name = "DIR", help_heading = "Output")]
     pub out: Option<PathBuf>,
@@ -144,6 +140,9 @@ pub struct Overrides {
     /// Pins instead of the scene's: none, min-y:D (within D m of the lowest y) or vertices:0,31
     #[arg(long, value_name = "RULE", value_parser = pin_rule, help_heading = "Overrides of the scene")]
     pub pin: Option<PinRule>,
+    /// Begin with the positions and velocities of this file, which --final of a run, or hooke rest, has written
+    #[arg(long, value_name = "FILE", help_heading = "Overrides of the scene")]
+    pub from: Option<PathBuf>,
 }
 
 /// Precision of a simulation.
@@ -167,7 +166,7 @@ pub enum Renumber {
 }
 
 /// Three numbers, `X,Y,Z`.
-fn triple(text: &str) -> Result<[f64; 3], String> {
+pub(crate) fn triple(text: &str) -> Result<[f64; 3], String> {
     let parts: Vec<&str> = text.split(',').map(str::trim).collect();
     let [x, y, z] = parts.as_slice() else { return Err("expected three numbers, as in 0,-9.81,0".into()) };
     let number = |part: &str| match part.parse::<f64>() {
@@ -177,7 +176,7 @@ fn triple(text: &str) -> Result<[f64; 3], String> {
     Ok([number(x)?, number(y)?, number(z)?])
 }
 
-fn pin_rule(text: &str) -> Result<PinRule, String> {
+pub(crate) fn pin_rule(text: &str) -> Result<PinRule, String> {
     text.parse().map_err(|error: InputError| error.message)
 }
 

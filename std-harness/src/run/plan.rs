@@ -106,7 +106,7 @@ impl Plan {
         let solver = known("solver", &args.solver, &solvers)?;
         let loaded = source::load(args.scene.as_deref().unwrap_or("curtain"))?;
         let (mut model, wanted, mut inputs) = (loaded.model, loaded.outputs, loaded.files);
-        if let Some(file) = &args.from {
+        if let Some(file) = &args.overrides.from {
             start::from_file(&mut model, file)?;
             inputs.push(file.clone());
         }

@@ -37,9 +37,6 @@ pub struct RestArgs {
     /// What of the scene is to be otherwise.
     #[command(flatten)]
     pub overrides: Overrides,
-    /// Begin at the positions of this file, which --final of a run has written
-    #[arg(long, value_name = "FILE", help_heading = "Overrides of the scene")]
-    pub from: Option<PathBuf>,
     /// The state at rest as CSV, for hooke run --from [default: out/rest.csv]
     #[arg(long = "final", value_name = "FILE", help_heading = "Output")]
     pub final_csv: Option<PathBuf>,
@@ -187,7 +184,6 @@ fn plan(args: &RestArgs) -> Result<Plan, InputError> {
         tolerance: Some(TOLERANCE),
         solver: args.solver.clone(),
         overrides: args.overrides.clone(),
-        from: args.from.clone(),
         final_csv: Some(args.final_csv.clone().unwrap_or_else(|| PathBuf::from("out/rest.csv"))),
         json: args.json.clone(),
         quiet: args.quiet,

@@ -1,9 +1,10 @@
 //! `hooke work-precision`: methods compared on a scene by what they cost and how wrong they are.
 //!
-//! Decide ([`study`]), find a reference ([`reference`]), make the runs ([`sweep`], each a [`row`]), judge ([`verdict`]), write
+//! Decide ([`study`]), find a reference ([`mod@reference`]), make the runs ([`sweep`], each a [`row`]), judge ([`verdict`]), write
 //! ([`table`], [`plot`], [`diagram`]).
 
 pub mod arguments;
+pub mod curve;
 pub mod diagram;
 pub mod measure;
 pub mod plot;

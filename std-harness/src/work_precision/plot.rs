@@ -8,8 +8,9 @@ use plotters::coord::Shift;
 use plotters::coord::ranged1d::{DefaultFormatting, KeyPointHint};
 use plotters::prelude::*;
 
+use super::curve::{Curve, Steps};
 use super::diagram::Diagram;
-use super::study::{Curve, Steps, Study};
+use super::study::Study;
 use crate::output::safe;
 use crate::run::integrator::INTEGRATORS;
 

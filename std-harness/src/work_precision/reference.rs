@@ -16,9 +16,10 @@
 
 use serde::Serialize;
 
+use super::curve::{Curve, Setting, Steps};
 use super::measure::{Done, Stopped, simulate};
 use super::progress::Progress;
-use super::study::{Curve, Setting, Steps, Study, steps_of};
+use super::study::{Study, steps_of};
 use super::sweep::limit;
 use crate::run::integrator::Integrator;
 
@@ -92,7 +93,7 @@ fn ladder(
     };
     let wanted = study.smallest / (PAST * DIGITS);
     let mut steps = steps_of(study.plan.seconds, longest).max(8.0);
-    let (mut levels, mut better): (Vec<Vec<[f64; 3]>>, Vec<Vec<[f64; 3]>>) = (Vec::new(), Vec::new());
+    let (mut levels, mut better) = (Vec::<Vec<[f64; 3]>>::new(), Vec::<Vec<[f64; 3]>>::new());
     let (mut best, mut left, mut last, mut vain): (Option<Reference>, _, _, _) = (None, effort, 0.0, 0);
     let mut why = "the steps would be too many".to_string();
     while steps <= super::study::MOST_STEPS && 2.0 * last <= left {

@@ -2,9 +2,10 @@
 
 use serde::Serialize;
 
+use super::curve::{Curve, Setting, Steps};
 use super::measure::{Done, Stopped, simulate};
 use super::reference::{Reference, farthest};
-use super::study::{Curve, Setting, Steps, Study};
+use super::study::Study;
 use crate::run::integrator::Integrator;
 use crate::run::plan::Plan;
 
@@ -106,7 +107,7 @@ pub fn run(study: &Study, reference: &Reference, curve: Curve, setting: Setting)
     match simulate(&plan, MOST) {
         Ok(done) => {
             let times = repeated(study, &plan, &done);
-            judged(study, reference, done, times, Row { solves: None, ..row }, curve)
+            judged(study, reference, done, times, row, curve)
         }
         Err(stopped) => {
             Row { note: stopped.to_string(), too_long: matches!(stopped, Stopped::TooLong(_)), ..row }

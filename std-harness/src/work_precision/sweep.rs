@@ -1,9 +1,10 @@
 //! Which runs are made: those that are asked for, or steps halved as long as that tells something.
 
+use super::curve::{Curve, Setting, Steps};
 use super::progress::Progress;
 use super::reference::Reference;
 use super::row::{self, Row};
-use super::study::{Curve, MOST_STEPS, Setting, Steps, Study, steps_of};
+use super::study::{MOST_STEPS, Study, steps_of};
 use crate::run::integrator::Integrator;
 use crate::run::simulation::Simulation;
 

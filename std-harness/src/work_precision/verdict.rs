@@ -3,8 +3,9 @@
 
 use serde::Serialize;
 
+use super::curve::Curve;
 use super::row::Row;
-use super::study::{Curve, Study};
+use super::study::Study;
 use crate::run::integrator::Integrator;
 
 /// How a curve gets to an error.
@@ -105,7 +106,7 @@ fn reach(rows: &[&Row], certain_from: f64, error: f64) -> Option<Reach> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::work_precision::study::{Setting, Steps};
+    use crate::work_precision::curve::{Setting, Steps};
 
     fn curve(points: &[(f64, f64)]) -> Vec<Row> {
         let curve = Curve { method: Integrator::Midpoint, steps: Steps::Fixed };
