@@ -34,7 +34,8 @@ without_features() {
 }
 
 # Takes out the solvers for hosts as well. They hold code that is not generic; the linker drops it, but has it before it
-# when it decides what to inline where, so the code of others can then differ by a few bytes either way.
+# when it decides what to inline where, so the code of others can then differ by a few bytes either way (24 of 16,208 were seen,
+# in `prepare` and `project`, which name no solver).
 without_lanes() {
     local source=$1/core/src
     rm -r "$source"/{wide,solver/multigrid,solver/around.rs}
@@ -75,7 +76,7 @@ unnamed() {
     minimal_of "$copy" "$out/minimal-bare" || return 1
     local more
     more=$(($(bytes "$out/minimal-with" '.text .rodata .data .bss') - $(bytes "$out/minimal-bare" '.text .rodata .data .bss')))
-    if ! diff <(names "$out/minimal-with") <(names "$out/minimal-bare") || [ "$more" -gt 16 ] || [ "$more" -lt -16 ]; then
+    if ! diff <(names "$out/minimal-with") <(names "$out/minimal-bare") || [ "$more" -gt 32 ] || [ "$more" -lt -32 ]; then
         echo "firmware: a solver that the minimal program does not name is in its image ($more bytes)"
         return 1
     fi
