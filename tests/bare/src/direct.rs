@@ -40,6 +40,7 @@ crate::entry_point::entry_points! {
     ) -> Result<Solve<T>, StepError> {
         solver.again(problem, stop)
     }
+    Solver::repeat(solver: &mut Sparse<'_, T>) { Solver::<T>::repeat(solver) }
     Solver::again[sparse](
         solver: &mut Sparse<'_, T>, problem: Problem<'_, '_, T, All<'_, T>>, stop: &Stop<T>,
     ) -> Result<Solve<T>, StepError> {

@@ -83,5 +83,16 @@ crate::entry_point::entry_points! {
     Embedded::accept(method: &mut Ros3<'_, T, All<'_, T>>, parts: Parts<'_, Owner<T>>) -> Result<(), StepError> {
         method.accept(parts)
     }
+    Adaptive::probe(method: &mut Controlled<'_, T, All<'_, T>>, s: &mut S<T>) -> Result<(T, Report<T>), StepError> {
+        method.probe(s)
+    }
+    MassSpring::step[adaptive_verlet](
+        s: &mut S<T>, method: &mut Adaptive<Verlet<T, All<'_, T>>, T>,
+    ) -> Stepped<T> {
+        s.step(method)
+    }
+    Embedded::longest(method: &mut Verlet<T, All<'_, T>>, parts: &mut Parts<'_, Owner<T>>) -> T {
+        method.longest(parts)
+    }
     Force::potential(forces: &All<'_, T>, rows: &Rows<'_, T>) -> T { forces.potential(rows) }
 }
