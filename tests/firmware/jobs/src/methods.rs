@@ -103,10 +103,20 @@ macro_rules! both {
     };
     (memory $f32:ident, $f64:ident, $name:literal, $make:expr) => {
         job!($f32, f32, $name, |scene, trace| {
-            drawn(scene, trace, $make(dt(), memory!(f32)).gravity(gravity()).with(damping::<f32>()), 1.0 / 200.0)
+            drawn(
+                scene,
+                trace,
+                $make(dt(), memory!(f32)).gravity(gravity()).with(damping::<f32>()),
+                1.0 / 200.0,
+            )
         });
         job!($f64, f64, $name, |scene, trace| {
-            drawn(scene, trace, $make(dt(), memory!(f64)).gravity(gravity()).with(damping::<f64>()), 1.0 / 200.0)
+            drawn(
+                scene,
+                trace,
+                $make(dt(), memory!(f64)).gravity(gravity()).with(damping::<f64>()),
+                1.0 / 200.0,
+            )
         });
     };
 }
