@@ -11,8 +11,8 @@
 //! linear momentum to rounding on islands that nothing holds. Use it on smooth motion, well below the period of what
 //! matters. Cost: one assembly and one solve, as [`crate::LinearlyImplicitEuler`]; no memory of its own.
 //!
-//! Source: Hairer, Lubich & Wanner, *Geometric Numerical Integration*, §VI.1 (the midpoint rule); DESIGN of θ by Crank &
-//! Nicolson 1947.
+//! Source: Hairer, Lubich & Wanner, *Geometric Numerical Integration*, §VI.1 (the midpoint rule), of which this is one
+//! Newton step.
 
 use super::Integrator;
 use super::stepper::{Stepper, commit};
