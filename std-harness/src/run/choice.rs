@@ -2,8 +2,9 @@
 //!
 //! With `--accuracy` the methods that know their error compete: where the scene is, each finds how long a step of the wanted
 //! accuracy is, by attempts that are not taken, and what such a step costs; the one that costs least per simulated second
-//! goes on. They compete again after 32 steps, and after twice as many whenever nothing changed, up to 512; another must be a
-//! fifth cheaper to take over. If the one that was chosen cannot make a step, the next cheapest tries. All of this is a
+//! goes on. They compete again after 2 steps, and after twice as many whenever nothing changed, up to 512 (after 8 when one
+//! has just taken over): where a scene is let go from rest an estimate sees nothing of what is to come. Another must be a fifth
+//! cheaper to take over. If the one that was chosen cannot make a step, the next cheapest tries. All of this is a
 //! function of the scene and the options, bit for bit.
 //!
 //! With a fixed step there are two: [`Integrator::Verlet`] in as many substeps as its limit asks for, more exact, and
@@ -118,7 +119,7 @@ impl<T: Real> Auto<T> {
             .into_iter()
             .map(|(name, method)| Member { name, method, price: f64::INFINITY, steps: 0 })
             .collect();
-        Self { members, prices, chosen: 0, left: 0, every: 16 }
+        Self { members, prices, chosen: 0, left: 0, every: 1 }
     }
 
     fn member(&self) -> &Member<T> {
@@ -140,7 +141,7 @@ impl<T: Real> Auto<T> {
         if self.left == 0 {
             let before = self.chosen;
             self.compete(scene);
-            self.every = if self.chosen == before { (2 * self.every).min(512) } else { 32 };
+            self.every = if self.chosen == before { (2 * self.every).min(512) } else { 8 };
             self.left = self.every;
         }
         self.left -= 1;
