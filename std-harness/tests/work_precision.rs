@@ -178,3 +178,22 @@ fn bad_options_are_refused_in_a_line_and_nothing_is_written() {
         .collect();
     assert!(wrong.is_empty(), "{}", wrong.concat());
 }
+
+#[test]
+fn instructions_are_the_same_again_and_more_for_more_steps() {
+    if std::process::Command::new("valgrind").arg("--version").output().is_err() {
+        println!("skipped: needs valgrind");
+        return;
+    }
+    let counts = || -> Vec<u64> {
+        let found = compared("pair --method verlet,ros2 --dt 0.01,0.005 --instructions --smallest 1e-5");
+        let runs = found["runs"].as_array().unwrap();
+        runs.iter().map(|run| run["instructions"].as_u64().unwrap_or_else(|| panic!("{run}"))).collect()
+    };
+    let (first, second) = (counts(), counts());
+    assert_eq!(first, second);
+    // Twice the steps, within what the first of them has to find.
+    for pair in first.chunks(2) {
+        assert!(pair[1] > pair[0] * 3 / 2 && pair[1] < pair[0] * 5 / 2, "{first:?}");
+    }
+}

@@ -60,6 +60,12 @@ pub struct Arguments {
     /// Time each run so often and keep the least; one of more than a second is timed once
     #[arg(long, value_name = "N", default_value_t = 3, help_heading = "Effort")]
     pub repeats: u32,
+    /// Also count the instructions of each run's steps, under valgrind, some fifty times slower: the same on a busy machine
+    #[arg(long, help_heading = "Effort")]
+    pub instructions: bool,
+    /// Makes one run and nothing else: what --instructions calls under valgrind
+    #[arg(long, hide = true)]
+    pub count_run: Option<String>,
     /// The smallest error of interest, m; the reference is to be 100 times as certain [default: the power of ten at or below a millionth of the scene's size]
     #[arg(long, value_name = "E", allow_negative_numbers = true, help_heading = "Effort")]
     pub smallest: Option<f64>,

@@ -67,9 +67,17 @@ pub fn simulate(plan: &Plan, most: f64) -> Result<Done, Stopped> {
         wall: zero,
     };
     let (cpu, wall) = (ThreadTime::now(), Instant::now());
+    walk(plan, most, &mut done, cpu)?;
+    (done.cpu, done.wall) = (cpu.elapsed(), wall.elapsed());
+    Ok(done)
+}
+
+/// All steps; `cpu` has run since before the first. What [`super::instructions`] counts.
+#[inline(never)]
+pub fn walk(plan: &Plan, most: f64, done: &mut Done, cpu: ThreadTime) -> Result<(), Stopped> {
     let mut first = Duration::ZERO;
     for step in 1..=plan.steps {
-        let reports = done.simulation.step(step).map_err(|error| failed(plan, &done, step, error))?;
+        let reports = done.simulation.step(step).map_err(|error| failed(plan, done, step, error))?;
         for report in &reports {
             done.steps += 1;
             done.iterations += u64::from(report.iterations);
@@ -89,8 +97,7 @@ pub fn simulate(plan: &Plan, most: f64) -> Result<Done, Stopped> {
             }
         }
     }
-    (done.cpu, done.wall) = (cpu.elapsed(), wall.elapsed());
-    Ok(done)
+    Ok(())
 }
 
 /// The time of all steps, s.

@@ -6,6 +6,7 @@
 pub mod arguments;
 pub mod curve;
 pub mod diagram;
+pub mod instructions;
 pub mod measure;
 pub mod plot;
 pub mod progress;
@@ -16,6 +17,7 @@ pub mod sweep;
 pub mod table;
 pub mod verdict;
 
+use crate::error::InputError;
 use crate::run::RunError;
 use arguments::Arguments;
 use diagram::Diagram;
@@ -25,6 +27,15 @@ use study::Study;
 /// Compares what the options say; answers the text to print.
 pub fn run(args: &Arguments) -> Result<String, RunError> {
     let study = Study::new(args)?;
+    if let Some(name) = &args.count_run {
+        let (curve, setting) =
+            instructions::named(name).ok_or(InputError::new(format!("--count-run {name}: no such run")))?;
+        let done = measure::simulate(&study.plan_of(curve, setting), f64::INFINITY);
+        return done.map(|_| String::new()).map_err(|stopped| RunError::Failed(stopped.to_string()));
+    }
+    if args.instructions {
+        instructions::ready()?;
+    }
     study.prepare_outputs()?;
     let progress = Progress::new(&study);
     let found = reference::find(&study, &progress);

@@ -3,6 +3,7 @@
 use serde::Serialize;
 
 use super::curve::{Curve, Setting, Steps};
+use super::instructions;
 use super::measure::{Done, Stopped, simulate};
 use super::reference::{Reference, farthest};
 use super::study::Study;
@@ -44,6 +45,8 @@ pub struct Row {
     pub ms: Option<f64>,
     /// Time that passed, the least of the repeats, ms.
     pub wall_ms: Option<f64>,
+    /// Instructions of the steps alone; null if they were not to be counted.
+    pub instructions: Option<u64>,
     /// How far the worst particle is from the reference, m; null if that is not certain, or without an end.
     #[serde(rename = "error_m")]
     pub error: Option<f64>,
@@ -88,6 +91,7 @@ impl Row {
             clamped: 0,
             ms: None,
             wall_ms: None,
+            instructions: None,
             error: None,
             energy_drift: None,
             momentum_drift: None,
@@ -107,12 +111,27 @@ pub fn run(study: &Study, reference: &Reference, curve: Curve, setting: Setting)
     match simulate(&plan, MOST) {
         Ok(done) => {
             let times = repeated(study, &plan, &done);
-            judged(study, reference, done, times, row, curve)
+            counted(study, setting, judged(study, reference, done, times, row, curve), curve)
         }
         Err(stopped) => {
             Row { note: stopped.to_string(), too_long: matches!(stopped, Stopped::TooLong(_)), ..row }
         }
     }
+}
+
+/// With its instructions, if they are to be counted and will not take too long.
+fn counted(study: &Study, setting: Setting, mut row: Row, curve: Curve) -> Row {
+    if study.instructions && row.error.is_some() {
+        let short = row.ms.is_some_and(|ms| ms < 1e3 * instructions::MOST);
+        let found =
+            if short { instructions::count(study, curve, setting) } else { Err("too long to count".into()) };
+        match found {
+            Ok(n) => row.instructions = Some(n),
+            Err(why) if row.note.is_empty() => row.note = why,
+            Err(why) => row.note = format!("{}; {why}", row.note),
+        }
+    }
+    row
 }
 
 /// The least times, ms: of the thread, and passed.

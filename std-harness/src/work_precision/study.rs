@@ -1,5 +1,6 @@
 //! What a comparison will do, decided and checked before anything is simulated or written.
 
+use std::ffi::OsString;
 use std::path::PathBuf;
 
 use super::arguments::Arguments;
@@ -26,6 +27,10 @@ pub struct Study {
     pub steps: Vec<u64>,
     /// Accuracies to try, J, the largest first.
     pub accuracies: Vec<f64>,
+    /// Are instructions to be counted?
+    pub instructions: bool,
+    /// The program's own options, for a call of itself.
+    pub options: Vec<OsString>,
     /// Is the solver chosen for every step anew?
     pub auto: bool,
     /// How often a run is timed.
@@ -87,6 +92,8 @@ impl Study {
             json: args.json.clone(),
             quiet: args.quiet,
             repeats: args.repeats,
+            instructions: args.instructions,
+            options: std::env::args_os().skip(1).filter(|option| option != "--instructions").collect(),
             plan,
             curves,
             accuracies,

@@ -8,7 +8,7 @@ use super::row::Row;
 use crate::output::safe;
 
 /// The columns of the CSV.
-pub const HEADER: &str = "curve,method,solver,dt_s,accuracy_J,steps,rejected,solves,iterations,clamped,ms,wall_ms,error_m,\
+pub const HEADER: &str = "curve,method,solver,dt_s,accuracy_J,steps,rejected,solves,iterations,clamped,ms,wall_ms,instructions,error_m,\
                           energy_drift,momentum_drift,note";
 
 /// Writes a row per run; what is not known is empty.
@@ -29,6 +29,7 @@ pub fn write(path: &Path, rows: &[Row]) -> io::Result<()> {
                 row.clamped.to_string(),
                 shown(row.ms),
                 shown(row.wall_ms),
+                shown(row.instructions),
                 shown(row.error),
                 shown(row.energy_drift),
                 shown(row.momentum_drift),
@@ -52,11 +53,15 @@ fn quoted(text: &str) -> String {
 /// The runs, a line each.
 pub fn text(rows: &[Row]) -> String {
     let name = rows.iter().map(|row| row.curve.len()).max().unwrap_or(0);
+    let counted = rows.iter().any(|row| row.instructions.is_some());
     let free = rows.iter().any(|row| row.momentum_drift.is_some());
     let mut s = String::new();
     // Writing to a String cannot fail.
     _ = write!(s, "  {:<name$} {:>9} {:>9} {:>9} {:>8}", "", "dt, ms", "error, m", "ms", "steps");
     _ = write!(s, " {:>8} {:>10} {:>9} {:>9}", "rejected", "iterations", "clamped", "ΔE/E");
+    if counted {
+        _ = write!(s, " {:>12}", "instructions");
+    }
     _ = writeln!(s, "{}  solver", if free { format!(" {:>9}", "Δp, kgm/s") } else { String::new() });
     let mut last = "";
     for row in rows {
@@ -66,6 +71,9 @@ pub fn text(rows: &[Row]) -> String {
         _ = write!(s, "  {curve:<name$} {:>9} {:>9}", figure(row.dt.map(|dt| 1e3 * dt)), short(row.error));
         _ = write!(s, " {:>9} {:>8} {:>8}", figure(row.ms), row.steps, row.rejected);
         _ = write!(s, " {:>10} {:>9} {:>9}", row.iterations, row.clamped, short(row.energy_drift));
+        if counted {
+            _ = write!(s, " {:>12}", figure(row.instructions.map(|n| n as f64)));
+        }
         if free {
             _ = write!(s, " {:>9}", short(row.momentum_drift));
         }
