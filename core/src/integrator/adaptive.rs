@@ -170,49 +170,37 @@ impl<I: Embedded<T>, T: Real> Adaptive<I, T> {
 }
 
 impl<I: Embedded<T>, T: Real> Adaptive<I, T> {
-    /// Finds how long a step may be where the scene is, by at most four attempts, none of which is taken; the next step begins
-    /// with that. Answers it, and the report of the last attempt: what such a step costs. For choosing between methods.
+    /// One attempt at a step where the scene is, which is not taken: the next begins with the length that its error asks for
+    /// ([`Adaptive::dt`]), at most twenty times more or less. Answers the attempt's report, what such a step costs, and whether
+    /// the length was right within a factor of 2. A few of them find how long a step may be, for choosing between methods.
     ///
     /// # Errors
-    /// [`StepError`]; nothing has changed.
+    /// [`StepError`]; the scene has not changed. After [`StepError::NotFinite`] the next attempt is twenty times shorter.
     pub fn probe<M: Memory<Real = T>>(
         &mut self,
         scene: &mut MassSpring<M>,
-    ) -> Result<(T, Report<T>), StepError> {
+    ) -> Result<(Report<T>, bool), StepError> {
         let mut parts = scene.parts();
         let longest = self.method.longest(&mut parts);
-        let mut attempts = 0;
-        loop {
-            if longest < self.dt {
-                self.dt = longest;
-            }
-            attempts += 1;
-            let absolute = self.accuracy / T::from_count(4096);
-            let near = match self.method.attempt(&mut parts, self.dt, absolute, &mut |_| {}) {
-                Ok((report, error)) => {
-                    let ratio = self.ratio(error);
-                    let root =
-                        if I::LOWER_ORDER <= 1 { root(ratio, 2) } else { root(ratio, 3) * root(ratio, 4) };
-                    let factor = within(T::from_f64(0.9) * root, T::from_f64(0.05), T::from_f64(20.0));
-                    self.before = T::ONE;
-                    self.dt = self.dt * factor;
-                    let there = factor > T::HALF && factor < T::TWO || (longest < self.dt && factor > T::ONE);
-                    if longest < self.dt {
-                        self.dt = longest;
-                    }
-                    there.then_some(report).or((attempts == 4).then_some(report))
-                }
-                Err(StepError::NotFinite(i)) if attempts == 4 => return Err(StepError::NotFinite(i)),
-                Err(StepError::NotFinite(_)) => {
-                    self.dt = self.dt * T::from_f64(0.05);
-                    None
-                }
-                Err(error) => return Err(error),
-            };
-            if let Some(report) = near {
-                return Ok((self.dt, report));
-            }
+        if longest < self.dt {
+            self.dt = longest;
         }
+        let absolute = self.accuracy / T::from_count(4096);
+        let attempt = self.method.attempt(&mut parts, self.dt, absolute, &mut |_| {});
+        if let Err(StepError::NotFinite(_)) = attempt {
+            self.dt = self.dt * T::from_f64(0.05);
+        }
+        let (report, error) = attempt?;
+        let ratio = self.ratio(error);
+        let root = if I::LOWER_ORDER <= 1 { root(ratio, 2) } else { root(ratio, 3) * root(ratio, 4) };
+        let factor = within(T::from_f64(0.9) * root, T::from_f64(0.05), T::from_f64(20.0));
+        self.before = T::ONE;
+        self.dt = self.dt * factor;
+        let cut = longest < self.dt;
+        if cut {
+            self.dt = longest;
+        }
+        Ok((report, (factor > T::HALF && factor < T::TWO) || (cut && factor > T::ONE)))
     }
 }
 

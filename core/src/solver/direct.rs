@@ -192,6 +192,7 @@ fn lower<T: Real, F: Force<T>>(
     }
     // The roundings of ν (of a row with all springs, at worst) and of the sum, twice over.
     let n = T::from_count(system.matrix.other.len() + 3 * rows + 32);
-    let bound = T::HALF * sum.sum() * (T::ONE - T::TWO * n * T::UNIT_ROUNDOFF);
+    // Underflow rounds to nearest, up as well as down.
+    let bound = T::HALF * sum.sum() * (T::ONE - T::TWO * n * T::UNIT_ROUNDOFF) - n * T::MIN_POSITIVE;
     if bound > T::ZERO { bound } else { T::ZERO }
 }

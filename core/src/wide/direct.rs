@@ -180,6 +180,7 @@ fn lower<T: Real, F: Force<T>, D: Dispatch>(lanes: &mut Lanes<'_, '_, T, F, D, D
     let sum = crate::lanes::Lanes::of(sum.0).sum();
     // The roundings of ν (of a row with all springs, at worst) and of the sum, twice over.
     let n = T::from_count(layout.springs + points + 3 * layout.places + 32);
-    let bound = T::HALF * sum * (T::ONE - T::TWO * n * T::UNIT_ROUNDOFF);
+    // Underflow rounds to nearest, up as well as down.
+    let bound = T::HALF * sum * (T::ONE - T::TWO * n * T::UNIT_ROUNDOFF) - n * T::MIN_POSITIVE;
     if bound > T::ZERO { bound } else { T::ZERO }
 }

@@ -4,7 +4,7 @@
 //! accuracy is, by attempts that are not taken, and what such a step costs; the one that costs least per simulated second
 //! goes on. They compete again after 2 steps, and after twice as many whenever nothing changed, up to 512 (after 8 when one
 //! has just taken over): where a scene is let go from rest an estimate sees nothing of what is to come. Another must be a fifth
-//! cheaper to take over. If the one that was chosen cannot make a step, the next cheapest tries. All of this is a
+//! cheaper to take over; one that is three times as dear sits out the next comparison, then three, then seven. If the one that was chosen cannot make a step, the next cheapest tries. All of this is a
 //! function of the scene and the options, bit for bit.
 //!
 //! With a fixed step there are two: [`Integrator::Verlet`] in as many substeps as its limit asks for, more exact, and
@@ -17,7 +17,7 @@
 use hooke::{MassSpring, Real, Report, StepError, Verlet};
 
 use super::auto::{self, Case};
-use super::integrator::{AnyIntegrator, Integrator};
+use super::integrator::{AnyIntegrator, Integrator, Probed};
 use super::solver::Method;
 use crate::cli::Precision;
 use crate::heap::Heap;
@@ -29,7 +29,12 @@ pub const PASS: f64 = 6.0;
 pub const STAGE: f64 = 14.0;
 
 /// What competes, in this order between equals.
-pub const COMPETITORS: [Integrator; 3] = [Integrator::Ros2, Integrator::Ros3, Integrator::Verlet];
+pub const COMPETITORS: [Integrator; 3] = [Integrator::Verlet, Integrator::Ros2, Integrator::Ros3];
+
+/// Attempts that find how long a step may be.
+const ATTEMPTS: u32 = 4;
+/// So many times dearer than the best is out of the question for now.
+const FAR: f64 = 3.0;
 
 /// What the steps of a scene cost.
 #[derive(Debug, Clone)]
@@ -110,6 +115,9 @@ struct Member<T: Real> {
     /// ns per simulated second, where they last competed; infinite if it could not
     price: f64,
     steps: u64,
+    /// Comparisons that it still sits out, and how many it sat out last
+    sits_out: u32,
+    pause: u32,
 }
 
 impl<T: Real> Auto<T> {
@@ -117,7 +125,14 @@ impl<T: Real> Auto<T> {
     pub fn new(members: Vec<(Integrator, AnyIntegrator<T>)>, prices: Prices) -> Self {
         let members = members
             .into_iter()
-            .map(|(name, method)| Member { name, method, price: f64::INFINITY, steps: 0 })
+            .map(|(name, method)| Member {
+                name,
+                method,
+                price: f64::INFINITY,
+                steps: 0,
+                sits_out: 0,
+                pause: 0,
+            })
             .collect();
         Self { members, prices, chosen: 0, left: 0, every: 1 }
     }
@@ -166,12 +181,33 @@ impl<T: Real> Auto<T> {
         }
     }
 
+    /// The cheapest so far goes first; who is seen to be far dearer is not looked at more closely, and sits out for a while.
     fn compete(&mut self, scene: &mut MassSpring<Heap<T>>) {
-        for member in &mut self.members {
-            member.price = match member.method.probe(scene) {
-                Some(Ok((dt, report))) => self.prices.of(member.name, &report) / dt.to_f64(),
-                _ => f64::INFINITY,
-            };
+        let mut order: Vec<usize> = (0..self.members.len()).collect();
+        order.sort_by(|a, b| self.members[*a].price.total_cmp(&self.members[*b].price));
+        let mut best = f64::INFINITY;
+        for k in order {
+            let member = &mut self.members[k];
+            if member.sits_out > 0 {
+                member.sits_out -= 1;
+                continue;
+            }
+            member.price = f64::INFINITY;
+            for _ in 0..ATTEMPTS {
+                match member.method.probe(scene) {
+                    Some(Ok(Probed { dt, report, settled })) => {
+                        member.price = self.prices.of(member.name, &report) / dt.to_f64();
+                        if settled || member.price > FAR * best {
+                            break;
+                        }
+                    }
+                    Some(Err(StepError::NotFinite(_))) => {}
+                    _ => break,
+                }
+            }
+            best = if member.price < best { member.price } else { best };
+            member.pause = if member.price > FAR * best { (2 * member.pause + 1).min(7) } else { 0 };
+            member.sits_out = member.pause;
         }
         let prices = self.members.iter().map(|member| member.price).enumerate();
         let Some((best, price)) = prices.min_by(|a, b| a.1.total_cmp(&b.1)) else { return };

@@ -115,6 +115,16 @@ pub enum AnyIntegrator<T: Real> {
     Auto(Box<Auto<T>>),
 }
 
+/// An attempt at a step that was not taken.
+pub struct Probed<T> {
+    /// The step that its error asks for, s.
+    pub dt: T,
+    /// Its report.
+    pub report: Report<T>,
+    /// Was it about that long itself?
+    pub settled: bool,
+}
+
 /// What an integrator is to be made with.
 pub struct Options<T> {
     /// The step, or the first one, s
@@ -280,12 +290,21 @@ impl<T: Real> AnyIntegrator<T> {
         }
     }
 
-    /// With chosen steps: how long one may be where the scene is, and what it then costs ([`Adaptive::probe`]).
-    pub fn probe(&mut self, scene: &mut MassSpring<Heap<T>>) -> Option<Result<(T, Report<T>), StepError>> {
+    /// With chosen steps: an attempt that is not taken ([`Adaptive::probe`]), and the step that it asks for, s.
+    pub fn probe(&mut self, scene: &mut MassSpring<Heap<T>>) -> Option<Result<Probed<T>, StepError>> {
+        macro_rules! probed {
+            ($method:expr) => {
+                Some($method.probe(scene).map(|(report, settled)| Probed {
+                    dt: $method.dt(),
+                    report,
+                    settled,
+                }))
+            };
+        }
         match self {
-            Self::AdaptiveRos2(method) => Some(method.probe(scene)),
-            Self::AdaptiveRos3(method) => Some(method.probe(scene)),
-            Self::AdaptiveVerlet(method) => Some(method.probe(scene)),
+            Self::AdaptiveRos2(method) => probed!(method),
+            Self::AdaptiveRos3(method) => probed!(method),
+            Self::AdaptiveVerlet(method) => probed!(method),
             _ => None,
         }
     }

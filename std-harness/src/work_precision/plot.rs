@@ -35,6 +35,9 @@ const COLOURS: [RGBColor; 9] = [
     RGBColor(0x86, 0x8e, 0x96),
 ];
 
+/// For curves that are not Hooke's.
+const OUTSIDE: [RGBColor; 2] = [RGBColor(0x8c, 0x5a, 0x3c), RGBColor(0xc0, 0x39, 0x2b)];
+
 type Drawn = Result<(), Box<dyn std::error::Error>>;
 type Area<'a> = DrawingArea<SVGBackend<'a>, Shift>;
 
@@ -67,12 +70,12 @@ fn draw(root: &Area<'_>, study: &Study, diagram: &Diagram) -> Drawn {
     root.draw_text(&title, &font(22), at(80, 14))?;
     root.draw_text(&format!("reference: {}", diagram.certificate()), &font(12), at(80, 44))?;
 
-    let points = |curve: Curve| {
-        let name = curve.name();
-        let own = diagram.runs.iter().filter(move |row| row.curve == name);
-        own.filter_map(|row| row.point()).map(|(ms, error)| (ms.log10(), error.log10()))
+    let points = |name: &str| -> Vec<(f64, f64)> {
+        let own = diagram.runs.iter().filter(|row| row.curve == name).filter_map(|row| row.point());
+        own.map(|(ms, error)| (ms.log10(), error.log10())).collect()
     };
-    let all: Vec<(f64, f64)> = study.curves.iter().flat_map(|curve| points(*curve)).collect();
+    let looks = looks(study, diagram);
+    let all: Vec<(f64, f64)> = looks.iter().flat_map(|look| points(&look.name)).collect();
     let (x, y) = (Axis::over(all.iter().map(|p| p.0)), Axis::over(all.iter().map(|p| p.1)));
     let mut chart = ChartBuilder::on(root)
         .margin_top(px(68))
@@ -105,29 +108,31 @@ fn draw(root: &Area<'_>, study: &Study, diagram: &Diagram) -> Drawn {
         chart.draw_series(DashedLineSeries::new(ends, dash, gap, INK.stroke_width(FINE)))?;
     }
     let mut row = 0;
-    for curve in &study.curves {
-        let own: Vec<(f64, f64)> = points(*curve).collect();
+    for look in &looks {
+        let own = points(&look.name);
         if own.is_empty() {
             continue;
         }
-        let style = colour(*curve).stroke_width(px(2));
-        if curve.steps == Steps::Chosen {
+        let (style, colour) = (look.colour.stroke_width(px(2)), look.colour);
+        if look.dashed {
             chart.draw_series(DashedLineSeries::new(own.iter().copied(), px(7), px(4), style))?;
         } else {
             chart.draw_series(LineSeries::new(own.iter().copied(), style))?;
         }
-        // A triangle for explicit methods, a disc for the others; a ring where steps are chosen, a cross where they are cut.
-        let (own, colour) = (own.into_iter(), colour(*curve));
-        if curve.steps == Steps::Chosen {
-            chart.draw_series(own.map(|point| Circle::new(point, px(4), colour.stroke_width(px(2)))))?;
-        } else if curve.steps == Steps::Cut {
-            chart.draw_series(own.map(|point| Cross::new(point, px(5), colour.stroke_width(px(3)))))?;
-        } else if curve.method.is_explicit() {
-            chart.draw_series(own.map(|point| TriangleMarker::new(point, px(6), colour.filled())))?;
-        } else {
-            chart.draw_series(own.map(|point| Circle::new(point, px(4), colour.filled())))?;
-        }
-        legend(root, *curve, row)?;
+        let own = own.into_iter();
+        match look.mark {
+            Mark::Ring => {
+                chart.draw_series(own.map(|p| Circle::new(p, px(4), colour.stroke_width(px(2)))))?
+            }
+            Mark::Cross => {
+                chart.draw_series(own.map(|p| Cross::new(p, px(5), colour.stroke_width(px(3)))))?
+            }
+            Mark::Triangle => {
+                chart.draw_series(own.map(|p| TriangleMarker::new(p, px(6), colour.filled())))?
+            }
+            Mark::Disc => chart.draw_series(own.map(|p| Circle::new(p, px(4), colour.filled())))?,
+        };
+        legend(root, look, row)?;
         row += 1;
     }
     if all.is_empty() {
@@ -137,30 +142,68 @@ fn draw(root: &Area<'_>, study: &Study, diagram: &Diagram) -> Drawn {
     Ok(())
 }
 
+/// What a curve's points are drawn as.
+#[derive(Clone, Copy)]
+enum Mark {
+    /// An implicit method
+    Disc,
+    /// An explicit method
+    Triangle,
+    /// Chosen steps
+    Ring,
+    /// Steps cut into substeps
+    Cross,
+}
+
+/// How a curve is drawn.
+struct Look {
+    name: String,
+    colour: RGBColor,
+    dashed: bool,
+    mark: Mark,
+}
+
+/// Of Hooke's curves, and of those that somebody else has added to the runs.
+fn looks(study: &Study, diagram: &Diagram) -> Vec<Look> {
+    let own = |curve: &Curve| {
+        let mark = match curve.steps {
+            Steps::Chosen => Mark::Ring,
+            Steps::Cut => Mark::Cross,
+            Steps::Fixed if curve.method.is_explicit() => Mark::Triangle,
+            Steps::Fixed => Mark::Disc,
+        };
+        Look { name: curve.name(), colour: colour(*curve), dashed: curve.steps == Steps::Chosen, mark }
+    };
+    let mut looks: Vec<Look> = study.curves.iter().map(own).collect();
+    for row in &diagram.runs {
+        if looks.iter().all(|look| look.name != row.curve) {
+            let colour = OUTSIDE[(looks.len() - study.curves.len()) % OUTSIDE.len()];
+            looks.push(Look { name: row.curve.clone(), colour, dashed: true, mark: Mark::Ring });
+        }
+    }
+    looks
+}
+
 /// A curve's line and name, beside the frame.
-fn legend(root: &Area<'_>, curve: Curve, row: u32) -> Drawn {
+fn legend(root: &Area<'_>, look: &Look, row: u32) -> Drawn {
     let (left, y) = (SIZE.0 - LEGEND + 14, 80 + 26 * row);
-    let style = colour(curve).stroke_width(px(2));
-    let (from, to) = (at(left, y), at(left + 30, y));
-    if curve.steps == Steps::Chosen {
+    let (middle, colour) = (at(left + 15, y), look.colour);
+    let style = colour.stroke_width(px(2));
+    if look.dashed {
         for part in 0..3 {
             root.draw(&PathElement::new([at(left + 11 * part, y), at(left + 11 * part + 7, y)], style))?;
         }
     } else {
-        root.draw(&PathElement::new([from, to], style))?;
+        root.draw(&PathElement::new([at(left, y), at(left + 30, y)], style))?;
     }
-    let (middle, colour) = (at(left + 15, y), colour(curve));
-    if curve.steps == Steps::Chosen {
-        root.draw(&Circle::new(middle, px(4), colour.stroke_width(px(2))))?;
-    } else if curve.steps == Steps::Cut {
-        root.draw(&Cross::new(middle, px(5), colour.stroke_width(px(3))))?;
-    } else if curve.method.is_explicit() {
-        root.draw(&TriangleMarker::new(middle, px(6), colour.filled()))?;
-    } else {
-        root.draw(&Circle::new(middle, px(4), colour.filled()))?;
+    match look.mark {
+        Mark::Ring => root.draw(&Circle::new(middle, px(4), colour.stroke_width(px(2))))?,
+        Mark::Cross => root.draw(&Cross::new(middle, px(5), colour.stroke_width(px(3))))?,
+        Mark::Triangle => root.draw(&TriangleMarker::new(middle, px(6), colour.filled()))?,
+        Mark::Disc => root.draw(&Circle::new(middle, px(4), colour.filled()))?,
     }
     let font = ("sans-serif", px(14)).into_font().color(&INK);
-    root.draw_text(&curve.name(), &font, at(left + 38, y - 8))?;
+    root.draw_text(&look.name, &font, at(left + 38, y - 8))?;
     Ok(())
 }
 

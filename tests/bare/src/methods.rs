@@ -83,7 +83,7 @@ crate::entry_point::entry_points! {
     Embedded::accept(method: &mut Ros3<'_, T, All<'_, T>>, parts: Parts<'_, Owner<T>>) -> Result<(), StepError> {
         method.accept(parts)
     }
-    Adaptive::probe(method: &mut Controlled<'_, T, All<'_, T>>, s: &mut S<T>) -> Result<(T, Report<T>), StepError> {
+    Adaptive::probe(method: &mut Controlled<'_, T, All<'_, T>>, s: &mut S<T>) -> Result<(Report<T>, bool), StepError> {
         method.probe(s)
     }
     MassSpring::step[adaptive_verlet](

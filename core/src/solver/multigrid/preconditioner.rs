@@ -150,13 +150,17 @@ impl<T: Real, D: Dispatch> wide::solve::Preconditioner<T> for Preconditioner<'_,
 
     #[inline(always)]
     fn apply(&mut self, to: Sweep<'_, '_, T>) {
+        // Where nothing was iterated, y still holds what assembly left: a product with z must find zeros where there is no row.
+        for at in to.layout.tiles() {
+            to.work.y.store(at, [wide::eight::all(T::ZERO); 3]);
+        }
         let most = wide::sweep::update(to.layout, to.work, to.weight, T::ZERO).1;
         self.in_lanes(to.way, to.work, to.rows, most);
     }
 }
 
 impl<T: Real, D: Dispatch> Preconditioner<'_, T, D> {
-    /// y = B r in planes of places.
+    /// y = B r in planes of places, at those of the rows.
     #[inline(never)]
     fn in_lanes(&mut self, way: Way<'_>, work: &mut Iterates<'_, T>, rows: &[u32], most: T) {
         let Iterates { r, y, .. } = work;
