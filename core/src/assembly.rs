@@ -7,7 +7,8 @@
 //!
 //! H_j scaled and clamped as in A ("K̃ on both sides": the equation that is solved is the lecture's with K̃ for K). What
 //! other methods take from H instead is their [`Side`]. One root for l and one for w per spring, one pass over the springs;
-//! where a node is not certified the springs that meet it are looked at again, and b takes the change of their H.
+//! where a node is not certified the springs that meet it are looked at again, and b takes the change of their H. A spring that
+//! alone takes a node's certificate away, c|α| ≥ m̃, is in b as it will be, clamped: |α| grows like 1/l, and b would lose all else.
 //!
 //! Source: the mass-spring lecture (assembly, linearly-implicit integration); Baraff & Witkin 1998, §3.
 
@@ -147,10 +148,17 @@ pub(crate) fn assemble<T: Real, F: Force<T>, L: Law, S: Side<T>>(
     let points = F::ANCHORS && island.vectors.y.iter().any(|mark| mark[0] != T::ZERO);
     let mut replaced = linearize::<T, F, L, S>(island, forces, h, scaling, side);
     if F::ANCHORS && points {
-        replaced += linearize_points(island, forces, scaling, side);
+        replaced += forces.linearize(&island.matrix.rows, scaling);
+        if !S::CLAMPED {
+            subtract_points(island, forces, side);
+        }
+        charge_points(island, forces);
     }
     let certified = certify(island.matrix.inertia, island.vectors.mu);
     let clamped = if certified { 0 } else { project(island, forces, scaling, points, side)? };
+    if F::ANCHORS && points && S::CLAMPED {
+        subtract_points(island, forces, side);
+    }
     let free = island.anchors == 0 && !points;
     Ok(Assembled { clamped: replaced + clamped, certified: certified && replaced == 0, points, free })
 }
@@ -180,6 +188,11 @@ impl<T: Real> Loaded<T> {
             return Hessian { alpha: T::ZERO, w: [T::ZERO; 3] };
         }
         Hessian::new(self.spring, self.stretched, self.damping, scaling)
+    }
+
+    #[inline(always)]
+    fn clamped(&self, scaling: Scaling<T>) -> Hessian<T> {
+        Hessian::clamped(self.spring, self.stretched, self.damping, scaling)
     }
 
     /// The force on the end that x_A of its Δx belongs to.
@@ -221,7 +234,9 @@ fn linearize<T: Real, F: Force<T>, L: Law, S: Side<T>>(
             let hessian = loaded.hessian(scaling);
             replaced += u32::from(loaded.replaced());
             let speed = vec3::sub(near.velocity, far.velocity);
-            let mut sum = vec3::sub(vec3::scale(h, loaded.force()), side.of(&hessian, speed));
+            let surely = S::CLAMPED && surely_clamped(&hessian, row, other, island.matrix.inertia);
+            let in_b = if surely { loaded.clamped(scaling) } else { hessian };
+            let mut sum = vec3::sub(vec3::scale(h, loaded.force()), side.of(&in_b, speed));
             if S::TURNS && F::DAMPS && !loaded.slack {
                 sum = vec3::add(sum, side.turning(loaded.damping, loaded.stretched, speed));
             }
@@ -241,32 +256,26 @@ fn linearize<T: Real, F: Force<T>, L: Law, S: Side<T>>(
     replaced
 }
 
-/// The same for point springs.
-#[inline(never)]
-fn linearize_points<T: Real, F: Force<T>>(
-    island: &mut IslandParts<'_, T>,
-    forces: &mut F,
-    scaling: Scaling<T>,
-    side: &impl Side<T>,
-) -> u32 {
-    let replaced = forces.linearize(&island.matrix.rows, scaling);
-    add_points(island, forces, -T::ONE, side);
-    charge_points(island, forces);
-    replaced
+/// Does this spring alone take an end's certificate away? Then [`project`] will clamp it: its charge alone is no less than m̃.
+#[inline(always)]
+fn surely_clamped<T: Real>(h: &Hessian<T>, row: usize, other: usize, inertia: &[T]) -> bool {
+    if !(h.alpha < T::ZERO) {
+        return false;
+    }
+    let far = inertia.get(other);
+    let charge = if far.is_some() { -T::TWO * h.alpha } else { -h.alpha };
+    let takes = |m: Option<&T>| m.is_some_and(|m| charge >= *m);
+    takes(inertia.get(row)) || takes(far)
 }
 
-/// b += sign · Σ H q̇ over point springs, as the side takes it.
-fn add_points<T: Real, F: Force<T>>(
-    island: &mut IslandParts<'_, T>,
-    forces: &F,
-    sign: T,
-    side: &impl Side<T>,
-) {
+/// b −= Σ H q̇ over point springs, as the side takes it.
+#[inline(never)]
+fn subtract_points<T: Real, F: Force<T>>(island: &mut IslandParts<'_, T>, forces: &F, side: &impl Side<T>) {
     let rows = island.matrix.rows;
     forces.hessians(&rows, &mut |row, hessian| {
         let v = island.end(row).velocity;
         if let Some(b) = island.vectors.b.get_mut(row) {
-            *b = vec3::add_scaled(*b, sign, side.of(&hessian, v));
+            *b = vec3::sub(*b, side.of(&hessian, v));
         }
     });
 }
@@ -303,7 +312,7 @@ fn project<T: Real, F: Force<T>, S: Side<T>>(
         let damping = if F::DAMPS { forces.damping(*j as usize) } else { T::ZERO };
         let spring = island.matrix.rows.state.spring(*j as usize);
         let new = Hessian::clamped(spring, Stretched::new(delta), damping, scaling);
-        if S::CLAMPED {
+        if S::CLAMPED && !surely_clamped(&old, row, other, island.matrix.inertia) {
             let speed = vec3::sub(near.velocity, far.velocity);
             let change = vec3::sub(side.of(&old, speed), side.of(&new, speed));
             scatter(row, other, change, island.vectors.b);
@@ -314,14 +323,8 @@ fn project<T: Real, F: Force<T>, S: Side<T>>(
         clamped += 1;
     });
     if F::ANCHORS && points {
-        if S::CLAMPED {
-            add_points(island, forces, T::ONE, side);
-        }
         let mu = &island.vectors.mu;
         clamped += forces.clamp(&island.matrix.rows, scaling, |row| fails(mu, row));
-        if S::CLAMPED {
-            add_points(island, forces, -T::ONE, side);
-        }
     }
     island.vectors.mu.fill(T::ZERO);
     each_spring(island, |island, row, other, edge| {

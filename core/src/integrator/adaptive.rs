@@ -195,7 +195,10 @@ impl<I: Embedded<T>, T: Real> Adaptive<I, T> {
         let root = if I::LOWER_ORDER <= 1 { root(ratio, 2) } else { root(ratio, 3) * root(ratio, 4) };
         let factor = within(T::from_f64(0.9) * root, T::from_f64(0.05), T::from_f64(20.0));
         self.before = T::ONE;
-        self.dt = self.dt * factor;
+        let next = self.dt * factor;
+        if (next * next).is_finite() {
+            self.dt = next;
+        }
         let cut = longest < self.dt;
         if cut {
             self.dt = longest;
@@ -221,7 +224,8 @@ impl<I: Embedded<T>, T: Real> Integrator<T> for Adaptive<I, T> {
             return Err(StepError::TimeStep);
         }
         let longest = self.method.longest(&mut parts);
-        if longest < self.dt {
+        let limited = longest < self.dt;
+        if limited {
             self.dt = longest;
         }
         let cut = self.end > T::ZERO && self.end < self.dt;
@@ -243,7 +247,8 @@ impl<I: Embedded<T>, T: Real> Integrator<T> for Adaptive<I, T> {
                     self.method.accept(parts)?;
                     let ratio = self.ratio(error);
                     let next = dt * self.factor(ratio);
-                    if !(cut && rejections == 0 && next < self.dt) {
+                    // Where nothing has an error steps grow, but not beyond what has a square.
+                    if (next * next).is_finite() && !(cut && rejections == 0 && next < self.dt) {
                         self.dt = next;
                     }
                     self.before = ratio;
@@ -253,8 +258,8 @@ impl<I: Embedded<T>, T: Real> Integrator<T> for Adaptive<I, T> {
                 Ok((_, error)) => Some(error),
                 // What is out of range at this step need not be at a shorter one.
                 Err(StepError::NotFinite(_)) => None,
-                // Shortened until its square is 0.
-                Err(StepError::TimeStep) if rejections > 0 => return Err(StepError::Accuracy),
+                // Shortened until its square is 0, here or by a limit.
+                Err(StepError::TimeStep) if rejections > 0 || limited => return Err(StepError::Accuracy),
                 Err(error) => return Err(error),
             };
             dt = dt * error.map_or(T::from_f64(0.1), |error| Self::shortened(self.ratio(error)));

@@ -182,14 +182,21 @@ impl<T: Real, F: Force<T>, S: Solver<T>, W: AsMut<[Vec3<T>]>, Z> Integrator<T>
                         let v = vec3::add_scaled(at(island.vectors.y), part, at(island.vectors.x));
                         [vec3::add_scaled(q, h, v), v]
                     });
-                    if way.flat {
-                        break;
-                    }
                     let here = trial.state(&state);
                     let island = islands.island(k, work, &here);
                     let (reached, blur) = potential::<T, F, M::Law>(&island, &state, &self.forces, h);
                     // Armijo: at least a ten-thousandth of what the slope promises.
                     if reached <= energy - T::from_f64(1e-4) * part * slope + larger(rounding, blur) {
+                        break;
+                    }
+                    if way.flat {
+                        // No better point can be recognised: back to where this one began, which is the end.
+                        let island = islands.island(k, work, &state);
+                        trial.place(&rows_of(&island, &state), |row, [q, _]| {
+                            let v = island.vectors.y.get(row).copied().unwrap_or([T::ZERO; 3]);
+                            [vec3::add_scaled(q, h, v), v]
+                        });
+                        way.before = T::ZERO;
                         break;
                     }
                     if halvings >= HALVINGS {
@@ -310,7 +317,8 @@ fn potential<T: Real, F: Force<T>, L: Law>(
                 let spring = here.spring(j);
                 sum += spring.potential_energy(length);
                 let reach = vec3::dot(at(ends[0]), at(ends[0])) + vec3::dot(at(ends[1]), at(ends[1]));
-                blur += spring.tension(length).abs() * (reach.sqrt() + spring.rest_length);
+                let reach = reach.sqrt() + spring.rest_length;
+                blur += spring.tension(length).abs() * reach + T::UNIT_ROUNDOFF * spring.stiffness * reach * reach;
             }
             if F::DAMPS {
                 let (c, _, along) = lagged::<T, F, L>(before, here, forces, j, ends);

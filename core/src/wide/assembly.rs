@@ -154,7 +154,13 @@ pub(crate) fn linearize<T: Real, L: Law, N: Neighbours, const DAMPED: bool>(
                 (push, changed) = (taut.positive_then(push), taut.positive_then(changed));
             }
             let force = vec3::scale(push, spring.direction);
-            let pull = vec3::sub(vec3::scale(all(h), force), hessian.mul(spring.speed));
+            let surely = surely_clamped(neighbours, front.inertia, hessian.alpha, at, ends);
+            let mut in_b = hessian;
+            if count(surely) > 0 {
+                let Hessian { alpha, w } = spring.clamped(scaling);
+                in_b = Hessian { alpha: choose(surely, alpha, in_b.alpha), w: chosen(surely, w, in_b.w) };
+            }
+            let pull = vec3::sub(vec3::scale(all(h), force), in_b.mul(spring.speed));
             replaced = replaced + changed;
             put(neighbours, front.hessians, springs, hessian);
             put_pull(neighbours, workshop.pulls, springs, pull);
@@ -162,6 +168,49 @@ pub(crate) fn linearize<T: Real, L: Law, N: Neighbours, const DAMPED: bool>(
     );
     neighbours.share(front.hessians);
     count(replaced)
+}
+
+/// 1 where a spring alone takes an end's certificate away: see [`crate::assembly`].
+#[inline(always)]
+fn surely_clamped<T: Real, N: Neighbours>(
+    neighbours: N,
+    inertia: &[T],
+    alpha: Eight<T>,
+    at: usize,
+    ends: N::Ends,
+) -> Eight<T> {
+    let compressed = alpha.any(
+        #[inline(always)]
+        |alpha| alpha < T::ZERO,
+    );
+    if !compressed {
+        return all(T::ZERO);
+    }
+    let (near, far) = (load(inertia, at), neighbours.number(inertia, ends));
+    let charge = alpha.zip(
+        far,
+        #[inline(always)]
+        |alpha, far| if far > T::ZERO { -T::TWO * alpha } else { -alpha },
+    );
+    // Places without a row have no mass.
+    let takes = |m: Eight<T>| {
+        charge.zip(
+            m,
+            #[inline(always)]
+            |charge, m| if charge > T::ZERO && m > T::ZERO && charge >= m { T::ONE } else { T::ZERO },
+        )
+    };
+    let (near, far) = (takes(near), takes(far));
+    near.zip(
+        far,
+        #[inline(always)]
+        |near, far| if near > T::ZERO { near } else { far },
+    )
+}
+
+#[inline(always)]
+fn chosen<T: Real>(first: Eight<T>, [a, b, c]: Vec3<Eight<T>>, [x, y, z]: Vec3<Eight<T>>) -> Vec3<Eight<T>> {
+    [choose(first, a, x), choose(first, b, y), choose(first, c, z)]
 }
 
 /// b += Σ pulls, rows only.
@@ -266,11 +315,16 @@ pub(crate) fn clamp<T: Real, L: Law, N: Neighbours, const DAMPED: bool>(
                 let springs = (spring, at, ends);
                 let stretched = Stretched::new::<L, N, DAMPED>(neighbours, front, workshop, scaling, springs);
                 let (new, speed) = (stretched.clamped(scaling), stretched.speed);
-                change = where_positive(hit, vec3::sub(old.mul(speed), new.mul(speed)));
-                let ([a, b, c], [x, y, z]) = (old.w, new.w);
-                let w = [choose(hit, x, a), choose(hit, y, b), choose(hit, z, c)];
-                let chosen = Hessian { alpha: choose(hit, new.alpha, old.alpha), w };
-                put(neighbours, front.hessians, spring, chosen);
+                let surely = surely_clamped(neighbours, front.inertia, old.alpha, at, ends);
+                let changes = choose(surely, all(T::ZERO), hit);
+                change = where_positive(changes, vec3::sub(old.mul(speed), new.mul(speed)));
+                let w = chosen(hit, new.w, old.w);
+                put(
+                    neighbours,
+                    front.hessians,
+                    spring,
+                    Hessian { alpha: choose(hit, new.alpha, old.alpha), w },
+                );
             }
             put_pull(neighbours, workshop.pulls, spring, change);
         },

@@ -60,11 +60,13 @@ impl<T: Real, F: Force<T>, D: Dispatch> Givens<'_, '_, T, F, D> {
         let mut replaced = self.linearize::<L>(front, workshop);
         if points {
             replaced += self.forces.linearize(&self.island.matrix.rows, self.scaling);
-            self.add_points(front, workshop, -T::ONE);
             self.charge_points(front);
         }
         let certified = self.certify(front);
         let clamped = if certified { 0 } else { self.project::<L>(front, workshop, points)? };
+        if points {
+            self.subtract_points(front, workshop);
+        }
         let free = self.island.anchors == 0 && !points;
         Ok(Some(Assembled {
             clamped: replaced + clamped,
@@ -119,14 +121,12 @@ impl<T: Real, F: Force<T>, D: Dispatch> Givens<'_, '_, T, F, D> {
         let (layout, scaling) = (self.layout, self.scaling);
         let mut clamped = either!(self.way, neighbours => self.clamp_in::<L, _>(neighbours, front, workshop));
         if points {
-            self.add_points(front, workshop, T::ONE);
             let rows = self.island.matrix.rows;
             let fails = |row: usize| {
                 let at = rows.particle.get(row).map(|particle| self.way.place(row, *particle));
                 !at.and_then(|at| front.mu.get(at)).is_some_and(|mu| *mu > T::ZERO)
             };
             clamped += self.forces.clamp(&rows, scaling, fails);
-            self.add_points(front, workshop, -T::ONE);
         }
         self.dispatch.run(
             #[inline(always)]
@@ -168,11 +168,11 @@ impl<T: Real, F: Force<T>, D: Dispatch> Givens<'_, '_, T, F, D> {
         )
     }
 
-    /// b += sign · Σ H q̇ over point springs.
-    fn add_points(&self, front: &mut Front<'_, T>, workshop: &Workshop<'_, T>, sign: T) {
+    /// b −= Σ H q̇ over point springs.
+    fn subtract_points(&self, front: &mut Front<'_, T>, workshop: &Workshop<'_, T>) {
         self.each_point(|at, hessian| {
             let pull = hessian.mul(workshop.velocity.row(at));
-            front.b.put(at, vec3::add_scaled(front.b.row(at), sign, pull));
+            front.b.put(at, vec3::sub(front.b.row(at), pull));
         });
     }
 
