@@ -33,6 +33,8 @@ pub enum Command {
     /// Compare methods on a scene: error against time, with a reference that certifies itself
     #[command(after_help = scenes())]
     WorkPrecision(Box<Arguments>),
+    /// Try every method on scenes that are hard on it, and judge what must hold of all of them
+    Stress(Box<crate::stress::arguments::Arguments>),
     /// Say what is in a mesh file
     Info(InfoArgs),
 }

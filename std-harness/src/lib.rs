@@ -10,4 +10,5 @@ pub mod nearest;
 pub mod output;
 pub mod run;
 pub mod scene;
+pub mod stress;
 pub mod work_precision;

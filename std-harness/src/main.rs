@@ -7,6 +7,7 @@ use hooke_harness::cli::{self, Command};
 use hooke_harness::error::InputError;
 use hooke_harness::mesh;
 use hooke_harness::run::{self, RunError, rest};
+use hooke_harness::stress;
 use hooke_harness::work_precision;
 
 fn main() -> ExitCode {
@@ -26,6 +27,7 @@ fn main() -> ExitCode {
     match command {
         Command::Run(args) => ended(run::run(&args)),
         Command::Rest(args) => ended(rest::rest(&args)),
+        Command::Stress(args) => ended(stress::run(&args)),
         Command::WorkPrecision(args) => ended(work_precision::run(&args)),
         Command::Info(args) => match mesh::info(&args.mesh) {
             Ok(info) if args.json => match serde_json::to_string_pretty(&info) {

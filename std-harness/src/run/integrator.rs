@@ -6,6 +6,7 @@ use hooke::{
 };
 
 use super::choice::{Auto, COMPETITORS};
+use super::counted::Counted;
 use super::simulation::Forces;
 use super::solver::AnySolver;
 use crate::heap::Heap;
@@ -82,25 +83,27 @@ impl Integrator {
 type Vectors<T> = Vec<[T; 3]>;
 /// What an island's sleep is decided by, if at all.
 type MaybeSleeping<T> = Option<Sleeping<T, Vec<T>, Vec<u32>>>;
-type Ros2<T> = Rosenbrock2<T, Vectors<T>, Forces<T>, AnySolver<T>>;
-type Ros3<T> = Rosenbrock3<T, Vectors<T>, Forces<T>, AnySolver<T>>;
+/// Any solver, counted.
+pub type AnyCounted<T> = Counted<AnySolver<T>>;
+type Ros2<T> = Rosenbrock2<T, Vectors<T>, Forces<T>, AnyCounted<T>>;
+type Ros3<T> = Rosenbrock3<T, Vectors<T>, Forces<T>, AnyCounted<T>>;
 
 /// Any of the integrators, decided when the program runs, with the scene's forces and a solver.
 // One of them per simulation: that they differ in size does not matter.
 #[allow(clippy::large_enum_variant)]
 pub enum AnyIntegrator<T: Real> {
     /// [`Integrator::Euler`]
-    Euler(LinearlyImplicitEuler<T, Forces<T>, AnySolver<T>, MaybeSleeping<T>>),
+    Euler(LinearlyImplicitEuler<T, Forces<T>, AnyCounted<T>, MaybeSleeping<T>>),
     /// [`Integrator::Midpoint`]
-    Midpoint(Midpoint<T, Forces<T>, AnySolver<T>>),
+    Midpoint(Midpoint<T, Forces<T>, AnyCounted<T>>),
     /// [`Integrator::Ros2`]
     Ros2(Ros2<T>),
     /// [`Integrator::Ros3`]
     Ros3(Ros3<T>),
     /// [`Integrator::Newton`]
-    Newton(Newton<T, Vectors<T>, Forces<T>, AnySolver<T>>),
+    Newton(Newton<T, Vectors<T>, Forces<T>, AnyCounted<T>>),
     /// [`Integrator::EnergyMomentum`]
-    EnergyMomentum(EnergyMomentum<T, Vectors<T>, Forces<T>, AnySolver<T>>),
+    EnergyMomentum(EnergyMomentum<T, Vectors<T>, Forces<T>, AnyCounted<T>>),
     /// [`Integrator::Verlet`]
     Verlet(Verlet<T, Forces<T>>),
     /// [`Integrator::SymplecticEuler`]
@@ -169,7 +172,7 @@ impl<T: Real> AnyIntegrator<T> {
         name: Integrator,
         options: &Options<T>,
         forces: Forces<T>,
-        solver: AnySolver<T>,
+        solver: AnyCounted<T>,
         sleeping: MaybeSleeping<T>,
     ) -> Self {
         let Options { dt, accuracy, particles, .. } = *options;

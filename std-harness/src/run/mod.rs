@@ -2,6 +2,7 @@
 
 pub mod auto;
 pub mod choice;
+pub mod counted;
 pub mod integrator;
 pub mod outcome;
 pub mod plan;

@@ -99,12 +99,21 @@ pub fn known(what: &str, name: &str, names: &[&str]) -> Result<usize, InputError
 impl Plan {
     /// Decides a run from its options.
     pub fn new(args: &RunArgs) -> Result<Self, InputError> {
+        let scene = args.scene.as_deref().unwrap_or("curtain");
+        Self::of(args, || source::load(scene))
+    }
+
+    /// Decides a run from its options and a scene, which is asked for when the names among them are known to be right.
+    pub fn of(
+        args: &RunArgs,
+        scene: impl FnOnce() -> Result<source::Loaded, InputError>,
+    ) -> Result<Self, InputError> {
         let integrators: Vec<&str> = INTEGRATORS.iter().map(|(name, _)| *name).collect();
         let integrator = known("integrator", &args.integrator, &integrators)?;
         let integrator = INTEGRATORS.get(integrator).map_or(Integrator::Euler, |(_, integrator)| *integrator);
         let solvers: Vec<&str> = METHODS.iter().map(|(name, _)| *name).chain(["auto"]).collect();
         let solver = known("solver", &args.solver, &solvers)?;
-        let loaded = source::load(args.scene.as_deref().unwrap_or("curtain"))?;
+        let loaded = scene()?;
         let (mut model, wanted, mut inputs) = (loaded.model, loaded.outputs, loaded.files);
         if let Some(file) = &args.overrides.from {
             start::from_file(&mut model, file)?;

@@ -12,6 +12,7 @@ use hooke::{
 };
 
 use super::choice::{Auto, COMPETITORS, Prices};
+use super::counted::{Counted, Work};
 use super::integrator::{AnyIntegrator, Integrator, Options};
 use super::plan::Plan;
 use super::solver::AnySolver;
@@ -42,6 +43,7 @@ pub struct Simulation<T: Real> {
     /// The kernel's scene, in the kernel's numbering.
     pub scene: MassSpring<Heap<T>>,
     integrator: AnyIntegrator<T>,
+    work: Work,
     /// Of the solver's and the integrator's own scratch and of what sleeping remembers
     scratch_bytes: usize,
     numbering: Option<Numbering>,
@@ -97,6 +99,11 @@ fn in_range<T: Real>(plan: &Plan) -> Result<(), InputError> {
     if !(h * h > T::ZERO && (h * h).is_finite()) {
         return refuse("--dt", plan.dt);
     }
+    if let Some(joules) = plan.accuracy
+        && !(T::from_f64(joules) > T::ZERO)
+    {
+        return refuse("--accuracy", joules);
+    }
     let [x, y, z] = plan.model.gravity;
     let tolerance = plan.tolerance.unwrap_or(0.0);
     for (name, value) in [
@@ -105,6 +112,7 @@ fn in_range<T: Real>(plan: &Plan) -> Result<(), InputError> {
         ("--gravity", z),
         ("--tolerance", tolerance),
         ("--absolute", plan.absolute),
+        ("--accuracy", plan.accuracy.unwrap_or(1.0)),
         ("--sleep", plan.sleep.unwrap_or(0.0)),
         ("drag", plan.model.drag),
     ] {
@@ -149,6 +157,8 @@ impl<T: Real + Display> Simulation<T> {
             solvers * solver.bytes() + (numbers + 3 * vectors) * size_of::<T>() + words * size_of::<u32>();
         let sleeping =
             plan.sleep.map(|joules| Sleeping::new(real(joules), vec![T::ZERO; numbers], vec![0; words]));
+        let work = Work::default();
+        let solver = Counted::new(solver, work.clone());
         let options = Options {
             dt: real(plan.first),
             tolerance: plan.tolerance.map(real),
@@ -180,6 +190,7 @@ impl<T: Real + Display> Simulation<T> {
         Ok(Self {
             scene,
             integrator,
+            work,
             scratch_bytes,
             numbering: plan.numbering.clone(),
             moving: model.moving.clone(),
@@ -213,6 +224,32 @@ impl<T: Real + Display> Simulation<T> {
             }
         }
         self.integrator.step(&mut self.scene, &self.motion)
+    }
+
+    /// One step of the method, of dt or as long as it chooses; answers its report, and how many longer ones it rejected.
+    pub fn once(&mut self, step: u64) -> Result<(Report<T>, u32), StepError> {
+        let report = match self.chosen {
+            Some(_) => self.integrator.step(&mut self.scene, &[]),
+            None => self.fixed(step),
+        };
+        let report = report.map_err(|error| in_users_ids(error, self.numbering.as_ref()))?;
+        Ok((report, self.integrator.made().map_or(0, |(made, _)| made.rejections)))
+    }
+
+    /// How long the last step was, s.
+    pub fn made(&self) -> f64 {
+        self.integrator.made().map_or(self.dt, |(made, _)| made.dt.to_f64())
+    }
+
+    /// Another step for all that follow, s; not where steps are chosen.
+    pub fn set_dt(&mut self, dt: f64) {
+        self.dt = dt;
+        self.integrator.set_dt(T::from_f64(dt));
+    }
+
+    /// What the solver was asked to do so far, also in steps that failed.
+    pub fn work(&self) -> &Work {
+        &self.work
     }
 
     /// Goes on until the moment is reached, and shows it: within a step by the cubic that has the positions and velocities of

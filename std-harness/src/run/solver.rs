@@ -188,6 +188,36 @@ impl<T: Real> Solver<T> for AnySolver<T> {
         }
     }
 
+    fn repeat(&mut self) {
+        match self {
+            Self::Jacobi(solver) => Solver::<T>::repeat(solver),
+            Self::Wide(solver, _) => Solver::<T>::repeat(solver.as_mut()),
+            Self::Multigrid(solver, _) => Solver::<T>::repeat(solver.as_mut()),
+            Self::Banded(solver, _) => Solver::<T>::repeat(solver.as_mut()),
+            Self::Ssor(solver, _) => Solver::<T>::repeat(solver),
+            Self::Ilu(solver, _) => Solver::<T>::repeat(solver),
+            Self::Ldl(solver, _) => Solver::<T>::repeat(solver.as_mut()),
+            Self::Ldl32(solver, _) => Solver::<T>::repeat(solver.as_mut()),
+        }
+    }
+
+    fn again<F: Force<T>>(
+        &mut self,
+        problem: hooke::solver::Problem<'_, '_, T, F>,
+        stop: &Stop<T>,
+    ) -> Result<Solve<T>, StepError> {
+        match self {
+            Self::Jacobi(solver) => solver.again(problem, stop),
+            Self::Ssor(solver, _) => solver.again(problem, stop),
+            Self::Ilu(solver, _) => solver.again(problem, stop),
+            Self::Wide(solver, _) => solver.as_mut().again(problem, stop),
+            Self::Multigrid(solver, _) => solver.as_mut().again(problem, stop),
+            Self::Banded(solver, _) => solver.as_mut().again(problem, stop),
+            Self::Ldl(solver, _) => solver.as_mut().again(problem, stop),
+            Self::Ldl32(solver, _) => solver.as_mut().again(problem, stop),
+        }
+    }
+
     fn solve<F: Force<T>>(
         &mut self,
         problem: hooke::solver::Problem<'_, '_, T, F>,
