@@ -19,24 +19,12 @@ use hooke_harness::stress::{cases, row, table};
 mod scratch;
 use scratch::Scratch;
 
-/// Faults of the kernel that the suite has found and that are not mended yet: where, and what it says there.
-const KNOWN: [(&str, &str); 4] = [
-    ("dt-1e3-free by euler in f32", "gains"),
-    ("k-1e-6-to-1e12 by newton in f32", "potential rises"),
-    ("subnormal-masses-f32 by newton in f64", "potential rises"),
-    ("subnormal-masses-f32 by auto-accuracy in f32", "must not end with: dt is not"),
-];
-
 #[test]
 fn whatever_the_scene_a_step_is_finite_or_a_typed_error_and_what_must_hold_holds() {
     let suite = Suite::new(&Arguments { quick: true, quiet: true, ..Arguments::default() }).unwrap();
     let rows = row::rows(&suite.trials());
     let broken: Vec<&String> = rows.iter().flat_map(|row| &row.broken).collect();
-    let is = |broken: &str, (place, what): (&str, &str)| broken.starts_with(place) && broken.contains(what);
-    let new: Vec<_> = broken.iter().filter(|broken| !KNOWN.iter().any(|known| is(broken, *known))).collect();
-    assert!(new.is_empty(), "{new:#?}");
-    let mended: Vec<_> = KNOWN.iter().filter(|known| !broken.iter().any(|b| is(b, **known))).collect();
-    assert!(mended.is_empty(), "mended, so take them off the list: {mended:?}");
+    assert!(broken.is_empty(), "{broken:#?}");
     println!("{}", table::total(&rows, suite.cases.len()));
 }
 

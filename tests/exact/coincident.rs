@@ -1,8 +1,9 @@
 //! l → 0: where the ends of a spring coincide there is no direction, and the rules say so.
 
 use hooke::{Hessian, LinearlyImplicitEuler, PointSpring, Real, Scaling, Spring, Stretched};
-use hooke_tests::build;
+use hooke_tests::data::SceneData;
 use hooke_tests::vec_memory::VecScene;
+use hooke_tests::{build, lanes};
 
 fn pair<T: Real>(apart: T, rest_length: f64) -> VecScene<T> {
     let mut scene = VecScene::<T>::empty();
@@ -91,4 +92,38 @@ fn a_replaced_hessian_counts_as_projected_and_its_step_as_not_certified() {
     scene.spring_with(0, 1, hooke::Spring { stiffness: 5.0, rest_length: 1.0 }).unwrap();
     let report = scene.step(&mut hooke::LinearlyImplicitEuler::new(0.1)).unwrap();
     assert_eq!((report.clamped, report.is_certified()), (1, false));
+}
+
+/// The right side once held the true Hessian, k l₀/l and all, before the clamped one took its place, and lost the force: at
+/// l = 1e-14 m the fifth digit of it, at 1e-20 m all of it.
+#[test]
+fn a_clamped_spring_pushes_its_ends_apart_however_short_it_is() {
+    fn check<T: Real>(lengths: &[f64], wide: bool) {
+        let real = T::from_f64;
+        for l in lengths {
+            let mut data = SceneData::default();
+            let pin = data.particle([0.0; 3], 1.0);
+            data.pinned[pin] = true;
+            let i = data.particle([0.6 * l, 0.8 * l, 0.0], 1.0);
+            data.velocity[i] = [0.3, 0.0, 0.0];
+            data.spring_with(pin, i, 100.0, 1.0);
+            let mut scene = build::scene::<T>(&data);
+            let h = 1.0 / 64.0;
+            let mut euler = LinearlyImplicitEuler::new(real(h)).tolerance(real(1e-14));
+            let report = if wide {
+                scene.step(&mut euler.solver(lanes::wide::<T>(&data))).unwrap()
+            } else {
+                scene.step(&mut euler).unwrap()
+            };
+            assert_eq!(report.clamped, 1);
+            let v = scene.velocities()[i].map(T::to_f64);
+            let exact = 0.18 + (h * 100.0 * (1.0 - l) - h * h * 100.0 * 0.18) / (1.0 + h * h * 100.0);
+            let off = 0.6 * v[0] + 0.8 * v[1] - exact;
+            assert!(off.abs() < 64.0 * T::UNIT_ROUNDOFF.to_f64(), "l = {l:e}: off by {off:e}");
+        }
+    }
+    for wide in [false, true] {
+        check::<f64>(&[1e-3, 1e-8, 1e-14, 1e-20, 1e-40, 1e-150], wide);
+        check::<f32>(&[1e-3, 1e-8, 1e-15], wide);
+    }
 }

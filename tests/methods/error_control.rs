@@ -3,7 +3,8 @@
 use std::cell::Cell;
 
 use hooke::{
-    Adaptive, Embedded, Force, LocalError, Motion, Rosenbrock2, Rosenbrock3, Spring, StepError, force::Rows,
+    Adaptive, Embedded, Force, LocalError, Motion, Rosenbrock2, Rosenbrock3, Spring, StepError, Verlet,
+    force::Rows,
 };
 use hooke_tests::data::SceneData;
 use hooke_tests::vec_memory::VecScene;
@@ -214,4 +215,18 @@ fn the_estimate_of_free_fall_and_of_rest_is_nothing_and_steps_grow_fivefold() {
     let mut method = Adaptive::new(Rosenbrock2::new(1.0, vec![[0.0; 3]; 6]), 1e-3, 1e-9);
     scene.step(&mut method).unwrap();
     assert_eq!(method.made().error, LocalError { energy: 0.0, distance: 0.0 });
+}
+
+/// dt once grew until its square was no number, and then every step was refused for it.
+#[test]
+fn where_nothing_ever_has_an_error_steps_stay_in_range_however_many_there_are() {
+    let mut scene = VecScene::<f32>::empty();
+    scene.particle([0.0; 3], 1.0).unwrap();
+    scene.pin(0).unwrap();
+    let mut method = Adaptive::new(Verlet::new(0.01), 0.01, 1e-6);
+    for step in 0..200 {
+        let made = scene.step(&mut method);
+        assert!(made.is_ok(), "step {step} of {:e} s: {made:?}", method.dt());
+    }
+    assert!(method.dt() > 1e18);
 }

@@ -318,7 +318,8 @@ fn potential<T: Real, F: Force<T>, L: Law>(
                 sum += spring.potential_energy(length);
                 let reach = vec3::dot(at(ends[0]), at(ends[0])) + vec3::dot(at(ends[1]), at(ends[1]));
                 let reach = reach.sqrt() + spring.rest_length;
-                blur += spring.tension(length).abs() * reach + T::UNIT_ROUNDOFF * spring.stiffness * reach * reach;
+                blur += spring.tension(length).abs() * reach
+                    + T::UNIT_ROUNDOFF * spring.stiffness * reach * reach;
             }
             if F::DAMPS {
                 let (c, _, along) = lagged::<T, F, L>(before, here, forces, j, ends);
