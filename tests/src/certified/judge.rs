@@ -5,7 +5,7 @@
 
 use std::collections::BTreeSet;
 
-use hooke::{Ending, IslandReport, Real, Solve};
+use hooke::{IslandReport, Real};
 
 use super::case::{Case, Cut};
 use super::condition::condition;
@@ -25,19 +25,6 @@ fn known_ratio(method: Method, fallback: bool, limits: &Limits) -> Option<f64> {
         _ if method.is_direct() => Some(2.0 * SLACK * limits.ratio),
         _ => None,
     }
-}
-
-/// What is known to be wrong in the kernel and is counted apart until it is mended there; see the end of `CERTIFIED.md`.
-fn excuse<T: Real>(method: Method, solve: &Solve<T>) -> Option<&'static str> {
-    // Nothing of the theorem's underflow term is taken off the lower bound with ν.
-    let faint = solve.lower.to_f64() < 8.0 * T::MIN_POSITIVE.to_f64();
-    if method.is_direct() && !solve.fallback && faint {
-        return Some("a direct solver's lower bound below the normal numbers");
-    }
-    // What lies in z at pins is not cleared if nothing was iterated.
-    let untouched = solve.ending == Ending::Untouched;
-    (method == Method::LanesMultigrid && untouched)
-        .then_some("multigrid in lanes without an iteration: its lower bound")
 }
 
 /// A system with what its judge needs.
@@ -77,8 +64,6 @@ impl<'s, T: Real> Judge<'s, T> {
         let energy_small = small(&energy);
         let Standing { above, clear } = self.limits.standing(self.stored, &x, &small_r, energy_small);
         let fallback = report.solve.fallback;
-        let outside = !(big(lower) <= energy && energy <= big(upper));
-        let excuse = excuse(method, &report.solve).filter(|_| outside && energy <= big(upper));
         let loose = clear
             && (!(upper <= SLACK * self.limits.ratio * energy_small)
                 || known_ratio(method, fallback, &self.limits)
@@ -93,8 +78,7 @@ impl<'s, T: Real> Judge<'s, T> {
             lower,
             upper,
             energy: energy_small,
-            violated: outside && excuse.is_none(),
-            excuse,
+            violated: !(big(lower) <= energy && energy <= big(upper)),
             above,
             clear,
             loose,

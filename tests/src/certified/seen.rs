@@ -31,8 +31,6 @@ pub struct Record {
     pub energy: f64,
     /// Is it outside?
     pub violated: bool,
-    /// Outside by a fault that is known
-    pub excuse: Option<&'static str>,
     /// Is the error above what rounding can leave?
     pub above: bool,
     /// Is the residual clear of rounding ([`super::rounding`])?

@@ -1,6 +1,5 @@
 //! Tables of what was seen, as markdown and as CSV.
 
-use std::collections::BTreeMap;
 use std::fmt::Write as _;
 
 use super::case::FAMILIES;
@@ -62,13 +61,11 @@ pub fn markdown(seen: &Seen) -> String {
     let violations = seen.solves.iter().filter(|r| r.violated).count();
     let loose = seen.solves.iter().filter(|r| r.loose).count();
     let clear = seen.solves.iter().filter(|r| r.clear).count();
-    let excused = seen.solves.iter().filter(|r| r.excuse.is_some()).count();
     _ = writeln!(
         out,
-        "{} systems, {} solves. The true error outside [lower, upper]: **{violations}**, and by faults that are known (at the \
-         end): **{excused}**. Farther apart than is known beforehand, of {clear} solves clear of rounding: **{loose}**. \
-         A ⪰ diag(μ) > 0: checked on {} systems, never wrong. {} solves judged in 125 digits too: the energy differs by {:.0e} \
-         of itself at most.\n",
+        "{} systems, {} solves. The true error outside [lower, upper]: **{violations}**. Farther apart than is known beforehand, \
+         of {clear} solves clear of rounding: **{loose}**. A ⪰ diag(μ) > 0: checked on {} systems, never wrong. {} solves judged \
+         in 125 digits too: the energy differs by {:.0e} of itself at most.\n",
         seen.count(),
         seen.solves.len(),
         seen.mu_checked,
@@ -107,7 +104,6 @@ pub fn markdown(seen: &Seen) -> String {
     }
     families(out, seen);
     projection(out, seen);
-    faults(out, seen);
     text
 }
 
@@ -123,21 +119,6 @@ fn families(out: &mut String, seen: &Seen) {
     _ = write!(out, "\n| an error in place of an answer | | how often |\n| --- | --- | --: |\n");
     for ((single, name), n) in &seen.refused {
         _ = writeln!(out, "| {name} | {} | {n} |", precision(*single));
-    }
-}
-
-fn faults(out: &mut String, seen: &Seen) {
-    let mut faults = BTreeMap::new();
-    for fault in seen.solves.iter().filter_map(|r| r.excuse.map(|excuse| (excuse, r))) {
-        let worst: &mut (usize, f64) = faults.entry(fault.0).or_default();
-        *worst = (worst.0 + 1, worst.1.max(fault.1.lower / fault.1.energy));
-    }
-    if faults.is_empty() {
-        return;
-    }
-    _ = write!(out, "\n| known fault | solves outside | lower/true, worst |\n| --- | --: | --: |\n");
-    for (name, (n, worst)) in faults {
-        _ = writeln!(out, "| {name} | {n} | {worst:.3} |");
     }
 }
 
