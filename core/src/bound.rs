@@ -13,6 +13,8 @@
 //!
 //! Cost: one product with its rounding at each check of a solve (most have one), one more at its end. Valid for rows of up to 2¹⁷ springs in f32, 2⁴⁶ in f64.
 //!
+//! The theorem, with its conditions, its proof and where that has gaps: `CERTIFICATE.md` in this crate's folder.
+//!
 //! Sources: Higham, *Accuracy and Stability of Numerical Algorithms*, §3.3 (running error analysis); Greenbaum 1997.
 
 use crate::force::Force;

@@ -34,5 +34,6 @@ mod sleeping;
 mod snapshots;
 mod ssor;
 mod stiffness;
+mod ulps;
 mod waking;
 mod wide;

@@ -7,5 +7,4 @@ mod bounds;
 mod one_step;
 mod oracles;
 mod stopping;
-mod stored;
 mod trajectories;

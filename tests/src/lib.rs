@@ -8,6 +8,7 @@
 
 pub mod allowed;
 pub mod build;
+pub mod certified;
 pub mod data;
 pub mod dense;
 pub mod direct;
@@ -23,4 +24,5 @@ pub mod side_by_side;
 pub mod sparse;
 pub mod textbook;
 pub mod triangular;
+pub mod ulps;
 pub mod vec_memory;

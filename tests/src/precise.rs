@@ -13,8 +13,13 @@ pub const BITS: usize = 208;
 
 /// The exact value of an `f64` (finite).
 pub fn big(x: f64) -> Big {
+    with_bits(x, BITS)
+}
+
+/// The same as a number of at least 53 bits, which what is made of it has too.
+pub fn with_bits(x: f64, bits: usize) -> Big {
     let exact = FBig::<HalfEven, 2>::try_from(x).expect("a finite number");
-    exact.with_precision(BITS).value()
+    exact.with_precision(bits).value()
 }
 
 /// Rounded to `f64`.
@@ -118,7 +123,10 @@ impl Factor {
             for j in 0..i {
                 let mut sum = matrix[i][j].clone();
                 for k in 0..j {
-                    sum -= &row[k] * &lower[j][k];
+                    // Chains are mostly zeros.
+                    if !row[k].repr().significand().is_zero() && !lower[j][k].repr().significand().is_zero() {
+                        sum -= &row[k] * &lower[j][k];
+                    }
                 }
                 row.push(sum);
             }
