@@ -139,7 +139,7 @@ fn in_f32_every_method_has_its_order_down_to_where_rounding_begins() {
     data.springs.iter_mut().for_each(|s| s.k *= 0.02);
     let mut off = Vec::new();
     for (method, order) in ORDERS {
-        let steps = if order < 1.5 { 64 } else { 8 };
+        let steps = [64, 16, 8][order as usize - 1];
         let [single, double] = [
             observed::<f32>(method, &data, 0.064, steps, false),
             observed::<f64>(method, &data, 0.064, steps, false),

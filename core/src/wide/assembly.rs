@@ -187,12 +187,13 @@ fn surely_clamped<T: Real, N: Neighbours>(
         return all(T::ZERO);
     }
     let (near, far) = (load(inertia, at), neighbours.number(inertia, ends));
-    let charge = alpha.zip(
+    // Places without a row have no mass; either end may be one.
+    let both = near.zip(
         far,
         #[inline(always)]
-        |alpha, far| if far > T::ZERO { -T::TWO * alpha } else { -alpha },
+        |near, far| if near > T::ZERO && far > T::ZERO { T::TWO } else { T::ONE },
     );
-    // Places without a row have no mass.
+    let charge = -(both * alpha);
     let takes = |m: Eight<T>| {
         charge.zip(
             m,
