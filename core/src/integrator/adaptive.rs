@@ -10,7 +10,7 @@
 //! the options and the ends that are asked for.
 //!
 //! J is an error per step, not of a run. A method of order 2 gets up to ten times closer with J a hundred times smaller.
-//! Where J is below what rounding makes of a step, ½u²Σm(|q̇|² + |q|²/h²), where a shorter step has no smaller error, or after 24
+//! Where the method has no stable step, where J is below what rounding makes of a step, ½u²Σm(|q̇|² + |q|²/h²), where a shorter step has no smaller error, or after 24
 //! rejections, [`StepError::Accuracy`], and [`Adaptive::attained`] tells the least E that is to be had.
 //!
 //! Source: Gustafsson 1991, *Control theoretic techniques for stepsize selection in explicit Runge–Kutta methods*; Söderlind
@@ -182,6 +182,9 @@ impl<I: Embedded<T>, T: Real> Adaptive<I, T> {
     ) -> Result<(Report<T>, bool), StepError> {
         let mut parts = scene.parts();
         let longest = self.method.longest(&mut parts);
+        if !(longest > T::ZERO) {
+            return Err(StepError::Accuracy);
+        }
         if longest < self.dt {
             self.dt = longest;
         }
@@ -224,6 +227,9 @@ impl<I: Embedded<T>, T: Real> Integrator<T> for Adaptive<I, T> {
             return Err(StepError::TimeStep);
         }
         let longest = self.method.longest(&mut parts);
+        if !(longest > T::ZERO) {
+            return Err(StepError::Accuracy);
+        }
         let limited = longest < self.dt;
         if limited {
             self.dt = longest;
