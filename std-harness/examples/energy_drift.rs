@@ -87,7 +87,7 @@ fn plot(file: &Path, title: &str, curves: &[Curve]) -> Result<(), Box<dyn Error>
         .caption(title, ("sans-serif", 22))
         .x_label_area_size(44)
         .y_label_area_size(70)
-        .build_cartesian_2d((1f64..last as f64 * 4.0).log_scale(), (1e-17..10f64).log_scale())?;
+        .build_cartesian_2d((1f64..last as f64 * 1.2).log_scale(), (1e-17..10f64).log_scale())?;
     chart
         .configure_mesh()
         .x_desc("steps")
@@ -99,11 +99,19 @@ fn plot(file: &Path, title: &str, curves: &[Curve]) -> Result<(), Box<dyn Error>
     for (k, (name, samples)) in curves.iter().enumerate() {
         let colour = Palette99::pick(k).to_rgba();
         let points = || samples.iter().map(|(step, drift)| (*step as f64, *drift));
-        chart.draw_series(LineSeries::new(points(), colour.stroke_width(2)))?;
-        if let Some(end) = points().next_back() {
-            chart.draw_series([Text::new(*name, end, ("sans-serif", 14).into_font().color(&colour))])?;
-        }
+        chart
+            .draw_series(LineSeries::new(points(), colour.stroke_width(2)))?
+            .label(*name)
+            .legend(move |(x, y)| PathElement::new([(x, y), (x + 24, y)], colour.stroke_width(2)));
     }
+    chart
+        .configure_series_labels()
+        .position(SeriesLabelPosition::UpperLeft)
+        .background_style(WHITE)
+        .border_style(BLACK.mix(0.2))
+        .label_font(("sans-serif", 14))
+        .legend_area_size(30)
+        .draw()?;
     root.present()?;
     Ok(())
 }
