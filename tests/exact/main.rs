@@ -9,6 +9,7 @@ mod block_ilu;
 mod cables;
 mod catenary;
 mod chains_in_lanes;
+mod claims;
 mod coincident;
 mod counters;
 mod damping;
