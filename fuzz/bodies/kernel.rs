@@ -1,130 +1,161 @@
-//! Any sequence of calls to a scene: none panics, a refused call changes nothing, positions and velocities stay finite,
-//! pins stay where they are, and a step's bounds are in order.
+//! Any sequence of calls to a scene: none panics, a refused call changes nothing, positions and velocities stay finite, pins
+//! are where they are told to be, a step's bounds are in order, and a restored scene goes on bit for bit.
 
-use hooke::{
-    Adaptive, Drag, EnergyMomentum, Fixed, LinearlyImplicitEuler, Midpoint, Mixed, Newton, PointSpring,
-    Rosenbrock2, Rosenbrock3, Scene, Snapshot, Spring, SymplecticEuler, Verlet,
-};
+use hooke::{Fixed, MassSpring, Memory, Mixed, Real, Scene, Snapshot, Spring};
 
-type S = Scene<f32, 12, 24, Mixed>;
+use crate::bytes::Bytes;
+use crate::kernel_step::Step;
 
-struct Bytes<'a>(&'a [u8]);
+/// Capacities that a sequence of bytes reaches.
+const PARTICLES: usize = 12;
+const SPRINGS: usize = 24;
+/// Indices that are tried: some of particles and springs that do not exist.
+const INDICES: usize = 14;
+/// The most calls.
+const CALLS: usize = 96;
 
-impl Bytes<'_> {
-    fn byte(&mut self) -> u8 {
-        match self.0.split_first() {
-            Some((first, rest)) => {
-                self.0 = rest;
-                *first
-            }
-            None => 0,
-        }
-    }
-
-    /// Mostly tame numbers, sometimes any bits at all.
-    fn number(&mut self) -> f32 {
-        match self.byte() {
-            255 => f32::from_le_bytes(std::array::from_fn(|_| self.byte())),
-            b => f32::from(b) / 16.0 - 4.0,
-        }
-    }
-
-    fn vector(&mut self) -> [f32; 3] {
-        std::array::from_fn(|_| self.number())
-    }
-}
-
-fn bits(scene: &S) -> Vec<u32> {
-    let lists = [scene.positions(), scene.velocities()];
-    lists.iter().flat_map(|list| list.as_flattened()).map(|x| x.to_bits()).collect()
-}
-
-/// Plays the bytes as calls.
+/// Plays the bytes as calls, in the precision that the first one says.
 pub fn kernel(data: &[u8]) {
-    let mut bytes = Bytes(data);
-    let mut scene = Box::new(S::new());
-    let mut snapshot = Box::new(Snapshot::<Fixed<f32, 12, 24, Mixed>>::new());
-    let mut saved = None;
-    for _ in 0..64 {
-        if bytes.0.is_empty() {
+    let mut bytes = Bytes::new(data);
+    if bytes.byte() & 1 == 0 { play::<f32>(bytes) } else { play::<f64>(bytes) }
+}
+
+/// All that a scene shows of itself, as bits.
+pub fn visible<M: Memory>(scene: &MassSpring<M>) -> Vec<u64> {
+    let state = scene.state();
+    let bits = |x: M::Real| x.to_f64().to_bits();
+    let vectors = state.position.iter().chain(state.velocity).flatten().copied();
+    let springs = (0..state.springs()).flat_map(|j| {
+        let Spring { stiffness, rest_length } = state.spring(j);
+        let (a, b) = state.ends(j).unwrap_or((usize::MAX, usize::MAX));
+        [bits(stiffness), bits(rest_length), a as u64, b as u64]
+    });
+    let pinned = (0..state.mass.len()).map(|i| u64::from(state.is_pinned(i)));
+    vectors.chain(state.mass.iter().copied()).map(bits).chain(springs).chain(pinned).collect()
+}
+
+/// What was saved, and a step that was made from there.
+struct Saved {
+    bits: Vec<u64>,
+    next: Option<(Step, String, Vec<u64>)>,
+}
+
+fn play<T: Real>(mut bytes: Bytes<'_>) {
+    let mut scene = Box::new(Scene::<T, PARTICLES, SPRINGS, Mixed>::new());
+    let mut snapshot = Box::new(Snapshot::<Fixed<T, PARTICLES, SPRINGS, Mixed>>::new());
+    let mut saved: Option<Saved> = None;
+    for _ in 0..CALLS {
+        if bytes.is_empty() {
             return;
         }
-        let before = bits(&scene);
-        let (call, i, j) =
-            (bytes.byte() % 16, usize::from(bytes.byte() % 14), usize::from(bytes.byte() % 14));
-        let refused = match call {
-            0 | 1 => scene.particle(bytes.vector(), bytes.number()).is_err(),
-            2 | 3 => scene.spring(i, j, bytes.number()).is_err(),
-            4 => {
-                let spring = Spring { stiffness: bytes.number(), rest_length: bytes.number() };
-                scene.cable(i, j, spring).is_err()
+        let before = visible(&scene);
+        let accepted = match bytes.below(32) {
+            14 => {
+                assert!(scene.save(&mut snapshot).is_ok(), "there is room for as much as in the scene");
+                saved = Some(Saved { bits: before.clone(), next: None });
+                true
             }
-            5 => scene.pin(i).is_err(),
-            6 => scene.release(i).is_err(),
-            7 => scene.break_spring(j).is_err(),
-            8 => scene.set_stiffness(j, bytes.number()).is_err(),
-            9 => scene.set_mass(i, bytes.number()).is_err(),
-            10 => scene.impulse(i, bytes.vector()).is_err(),
-            11 => scene.set_position(i, bytes.vector()).is_err(),
-            12 => {
-                saved = scene.save(&mut snapshot).is_ok().then(|| bits(&scene));
-                false
-            }
-            13 => match &saved {
-                Some(saved) => {
-                    assert!(scene.restore(&snapshot).is_ok());
-                    assert_eq!(&bits(&scene), saved, "a restored scene is what was saved");
-                    false
+            15 | 16 => {
+                if let Some(saved) = &saved {
+                    resumes(&mut scene, &snapshot, saved);
                 }
-                None => false,
-            },
+                true
+            }
+            17 => {
+                measure(&mut scene);
+                visible(&scene) == before
+            }
+            call @ 0..14 => edit(call, &mut scene, &mut bytes),
             _ => {
-                let dt = bytes.number().abs() / 16.0;
-                let drag = Drag(bytes.number());
-                let point = PointSpring::new(i, bytes.vector(), bytes.number());
-                let iterations = u32::from(bytes.byte());
-                let pinned: Vec<_> = (0..scene.positions().len()).filter(|i| scene.is_pinned(*i)).collect();
-                let held: Vec<_> = pinned.iter().map(|i| scene.positions()[*i].map(f32::to_bits)).collect();
-                // A step is short of memory where the byte says so; what is in it must not matter.
-                let method = bytes.byte();
-                let room = if method >= 240 { 1 } else { 5 * scene.positions().len() };
-                let memory = vec![[f32::NAN; 3]; room];
-                macro_rules! step {
-                    ($method:expr) => {{
-                        let forces = $method.gravity([0.0, -9.81, 0.0]).with(drag).with(point);
-                        scene.step(&mut forces.max_iterations(iterations))
-                    }};
-                    (adaptive $method:expr) => {{
-                        let forces = $method.gravity([0.0, -9.81, 0.0]).with(drag).with(point);
-                        scene.step(&mut Adaptive::new(forces.max_iterations(iterations), dt, 1e-3))
-                    }};
+                let step = Step::read(&mut bytes, INDICES);
+                let after_save = saved.as_ref().is_some_and(|s| s.next.is_none() && s.bits == before);
+                let report = step.make(&mut *scene);
+                let now = visible(&scene);
+                step.judge(&scene, &report, &before, &now);
+                let outcome = format!("{report:?}");
+                if let (true, Some(saved)) = (after_save, &mut saved) {
+                    saved.next = Some((step, outcome, now));
                 }
-                let step = match method % 10 {
-                    1 => step!(Midpoint::new(dt)),
-                    2 => step!(Rosenbrock2::new(dt, memory)),
-                    3 => step!(Rosenbrock3::new(dt, memory)),
-                    4 => step!(Newton::new(dt, memory)),
-                    5 => step!(EnergyMomentum::new(dt, memory)),
-                    6 => step!(Verlet::new(dt).substeps_at_most(100)),
-                    7 => step!(SymplecticEuler::new(dt)),
-                    8 => step!(adaptive Rosenbrock2::new(dt, memory)),
-                    9 => step!(adaptive Rosenbrock3::new(dt, memory)),
-                    _ => step!(LinearlyImplicitEuler::new(dt)),
-                };
-                if let Ok(report) = step {
-                    assert!(
-                        report.lower <= report.upper && report.upper.is_finite(),
-                        "bounds in order: {report:?}"
-                    );
-                    let now = pinned.iter().map(|i| scene.positions()[*i].map(f32::to_bits));
-                    assert!(now.eq(held), "pins rest");
-                }
-                step.is_err()
+                report.is_ok()
             }
         };
-        if refused {
-            assert_eq!(bits(&scene), before, "a refused call changes nothing");
+        if !accepted {
+            assert_eq!(visible(&scene), before, "a refused call changes nothing");
         }
-        assert!(bits(&scene).iter().all(|x| f32::from_bits(*x).is_finite()), "the state is finite");
+        let state = [scene.positions(), scene.velocities()];
+        assert!(state.iter().all(|list| list.as_flattened().iter().all(|x| x.is_finite())), "finite");
+    }
+}
+
+/// One change of the scene; was it accepted?
+fn edit<M: Memory<Law = Mixed>>(call: usize, scene: &mut MassSpring<M>, bytes: &mut Bytes<'_>) -> bool {
+    let real = M::Real::from_f64;
+    let (i, j) = (bytes.below(INDICES), bytes.below(2 * INDICES));
+    let particles = scene.positions().len();
+    let pinned = scene.is_pinned(i);
+    let broken = scene.state().ends(j).is_none();
+    let done = match call {
+        0 | 1 => {
+            scene.particle(bytes.vector().map(real), real(bytes.number())).map(|k| assert_eq!(k, particles))
+        }
+        2 | 3 => scene.spring(i, j % INDICES, real(bytes.number())).map(|_| ()),
+        4 | 5 => {
+            let spring = Spring { stiffness: real(bytes.number()), rest_length: real(bytes.number()) };
+            let b = j % INDICES;
+            let added = if call == 4 { scene.cable(i, b, spring) } else { scene.spring_with(i, b, spring) };
+            added.map(|k| assert_eq!(scene.state().spring(k), spring))
+        }
+        6 => scene.pin(i).map(|()| assert!(scene.is_pinned(i))),
+        7 => scene.release(i).map(|()| assert!(pinned && !scene.is_pinned(i))),
+        8 => scene.break_spring(j).map(|()| assert!(!broken && scene.state().ends(j).is_none())),
+        9 => scene.set_stiffness(j, real(bytes.number())).map(|()| assert!(!broken)),
+        10 => scene.set_rest_length(j, real(bytes.number())).map(|()| assert!(!broken)),
+        11 => scene.set_mass(i, real(bytes.number())),
+        12 => {
+            let x = bytes.vector().map(real);
+            scene.set_position(i, x).map(|()| assert_eq!(scene.positions()[i], x))
+        }
+        _ => {
+            let v = bytes.vector().map(real);
+            let done = if bytes.byte() & 1 == 0 { scene.set_velocity(i, v) } else { scene.impulse(i, v) };
+            done.map(|()| assert!(!pinned))
+        }
+    };
+    done.is_ok()
+}
+
+/// A restored scene is what was saved, and its next step is that of the scene which went on, in its bits and in its report;
+/// whether it has a history or is new.
+fn resumes<T: Real>(
+    scene: &mut Scene<T, PARTICLES, SPRINGS, Mixed>,
+    snapshot: &Snapshot<Fixed<T, PARTICLES, SPRINGS, Mixed>>,
+    saved: &Saved,
+) {
+    let mut new = Box::new(Scene::<T, PARTICLES, SPRINGS, Mixed>::new());
+    for scene in [scene, &mut new] {
+        assert!(scene.restore(snapshot).is_ok(), "what was saved fits");
+        assert_eq!(visible(scene), saved.bits, "a restored scene is what was saved");
+        if let Some((step, outcome, after)) = &saved.next {
+            assert_eq!(format!("{:?}", step.make(scene)), *outcome, "its step says the same");
+            assert_eq!(visible(scene), *after, "and ends in the same bits");
+        }
+    }
+}
+
+/// Everything that can be asked of a scene; it must answer.
+fn measure<M: Memory>(scene: &mut MassSpring<M>) {
+    let free = scene.free_particles();
+    assert!(scene.islands() <= free && free <= scene.positions().len());
+    let springs = scene.springs();
+    _ = (springs.kinetic_energy(), springs.potential_energy(), springs.lagrangian());
+    let state = scene.state();
+    _ = (state.linear_momentum(), state.angular_momentum(), state.centre_of_mass());
+    for j in 0..2 * INDICES {
+        _ = (springs.tension_of(j), springs.potential_energy_of(j), springs.hessian_of(j));
+        _ = (springs.length_of(j), springs.strain_of(j), springs.stretch_factor_of(j));
+    }
+    for i in 0..INDICES {
+        let force = scene.reaction(i, &hooke::Gravity([M::Real::ONE; 3]));
+        assert_eq!(force.is_some(), i < scene.positions().len());
     }
 }

@@ -1,7 +1,4 @@
 //! The kernel's API as a sequence of calls.
 #![no_main]
 
-#[path = "../bodies/kernel.rs"]
-mod body;
-
-libfuzzer_sys::fuzz_target!(|data: &[u8]| body::kernel(data));
+libfuzzer_sys::fuzz_target!(|data: &[u8]| hooke_fuzz_bodies::kernel::kernel(data));

@@ -46,16 +46,21 @@ pub struct Mesh {
 pub fn load(path: &Path) -> Result<Mesh, InputError> {
     let format = Format::of(path)?;
     let bytes = std::fs::read(path).map_err(|e| InputError::in_file(path, format!("cannot read: {e}")))?;
+    parse(path, &bytes, format)
+}
+
+/// The mesh that these bytes of a file are in this format, validated; errors name the file.
+pub fn parse(path: &Path, bytes: &[u8], format: Format) -> Result<Mesh, InputError> {
     if bytes.iter().all(u8::is_ascii_whitespace) {
         return Err(InputError::in_file(path, "the file is empty"));
     }
     let mesh = match format {
-        Format::Obj => obj::read(path, &bytes),
-        Format::Medit => medit::read(path, &bytes),
-        Format::Gmsh => gmsh::read(path, &bytes),
-        Format::Ply => ply::read(path, &bytes),
-        Format::VtkLegacy | Format::VtkXml => vtk::read(path, &bytes, format),
-        Format::Stl => stl::read(path, &bytes),
+        Format::Obj => obj::read(path, bytes),
+        Format::Medit => medit::read(path, bytes),
+        Format::Gmsh => gmsh::read(path, bytes),
+        Format::Ply => ply::read(path, bytes),
+        Format::VtkLegacy | Format::VtkXml => vtk::read(path, bytes, format),
+        Format::Stl => stl::read(path, bytes),
     }?;
     mesh.validate(path)?;
     Ok(mesh)

@@ -22,7 +22,10 @@ pub(super) fn read(file: &Path, bytes: &[u8]) -> Result<Mesh, InputError> {
 
 fn parse(file: &Path, bytes: &[u8]) -> Result<Mesh, InputError> {
     let fail = |message: String| InputError::in_file(file, message);
-    let broken = |e: ParseError| InputError { file: Some(file.into()), line: e.line(), message: reason(&e) };
+    // Where a file is cut short, the crate names the line after its last.
+    let last = bytes.split(|b| *b == b'\n').count();
+    let line = |e: &ParseError| e.line().map(|line| line.min(last));
+    let broken = |e: ParseError| InputError { file: Some(file.into()), line: line(&e), message: reason(&e) };
     let parser = Parser::<DefaultElement>::new();
     let mut reader = Reader::new(bytes);
     let header = parser.read_header(&mut reader).map_err(broken)?;
@@ -36,7 +39,11 @@ fn parse(file: &Path, bytes: &[u8]) -> Result<Mesh, InputError> {
             return Err(fail(format!("{message}: it is cut short or its count is wrong")));
         }
     }
-    let payload = parser.read_payload(&mut reader, &header).map_err(broken)?;
+    let payload = parser.read_payload(&mut reader, &header).map_err(|e| match header.encoding {
+        Encoding::Ascii => broken(e),
+        // The crate counts an element as a line, but what is binary has none.
+        _ => InputError { line: None, ..broken(e) },
+    })?;
     let left = reader.get_ref().iter().filter(|b| !b.is_ascii_whitespace()).count();
     if left > 0 {
         return Err(fail(format!("{left} bytes follow the last element: the header's counts are too small")));

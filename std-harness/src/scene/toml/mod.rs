@@ -82,7 +82,12 @@ use schema::SceneFile;
 /// Reads and checks a scene file; `name` is what the scene is called in summaries.
 pub fn load(name: &str, file: &Path) -> Result<Loaded, InputError> {
     let bytes = std::fs::read(file).map_err(|e| InputError::in_file(file, format!("cannot read: {e}")))?;
-    let source = Source::new(file, &bytes)?;
+    parse(name, file, &bytes)
+}
+
+/// The scene that these bytes of a file describe; errors name the file, and a mesh is looked for beside it.
+pub fn parse(name: &str, file: &Path, bytes: &[u8]) -> Result<Loaded, InputError> {
+    let source = Source::new(file, bytes)?;
     let scene = source.parse()?;
     let (mut model, mesh) = particles(name, &scene, &source)?;
 

@@ -1,0 +1,4 @@
+//! Gmsh MSH.
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|data: &[u8]| hooke_fuzz_bodies::mesh::gmsh(data));

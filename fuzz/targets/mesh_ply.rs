@@ -1,0 +1,4 @@
+//! Stanford PLY.
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|data: &[u8]| hooke_fuzz_bodies::mesh::ply(data));

@@ -1,0 +1,4 @@
+//! STL.
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|data: &[u8]| hooke_fuzz_bodies::mesh::stl(data));

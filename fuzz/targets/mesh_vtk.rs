@@ -1,0 +1,4 @@
+//! VTK legacy.
+#![no_main]
+
+libfuzzer_sys::fuzz_target!(|data: &[u8]| hooke_fuzz_bodies::mesh::vtk(data));
