@@ -8,6 +8,7 @@ shift || true
 targets=("$@")
 export CARGO_TARGET_DIR=${CARGO_TARGET_DIR:-$PWD/target}
 [ ${#targets[@]} -gt 0 ] || mapfile -t targets < <(cargo +nightly fuzz list)
+built=$CARGO_TARGET_DIR/$(rustc -vV | sed -n 's/^host: //p')/release
 
 # Greedy set cover over the features that libFuzzer wrote down for each file: which files, in their order of gain.
 greedy() { # control file, how many
@@ -38,8 +39,8 @@ trap 'rm -r "$work"' EXIT
 for target in "${targets[@]}"; do
     mkdir -p "$work/$target/all" "$work/$target/out"
     find "$CARGO_TARGET_DIR/corpus/$target" "corpus/$target" -type f -size -401c -exec cp -t "$work/$target/all" {} +
-    cargo +nightly fuzz run "$target" "$work/$target/out" -- -set_cover_merge=1 \
-        -merge_control_file="$work/$target/control" "$work/$target/out" "$work/$target/all" >"$work/log" 2>&1 ||
+    "$built/$target" -set_cover_merge=1 -merge_control_file="$work/$target/control" "$work/$target/out" \
+        "$work/$target/all" >"$work/log" 2>&1 ||
         { tail -20 "$work/log"; exit 1; }
     find "corpus/$target" -type f -regextype posix-extended -regex '.*/[0-9a-f]{40}' -delete
     greedy "$work/$target/control" "$most" | while read -r file; do

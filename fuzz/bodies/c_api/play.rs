@@ -29,6 +29,10 @@ pub fn play(mut bytes: Bytes<'_>) {
             return;
         }
         let call = bytes.below(32);
+        if call == 30 {
+            any_sizes(&mut bytes);
+            continue;
+        }
         if call == 31 {
             damaged(&memory, &mut bytes);
             continue;
@@ -56,6 +60,22 @@ pub fn play(mut bytes: Bytes<'_>) {
         agrees(handle, status, answer, &before, &memory, !steps);
         same_state(handle, &kernel);
     }
+}
+
+/// Sizes up to all that a number can say: what has no size is refused, and nothing is made in a buffer of less than the size.
+fn any_sizes(bytes: &mut Bytes<'_>) {
+    let mut any = || usize::from_le_bytes(std::array::from_fn(|_| bytes.byte())) >> (bytes.byte() % 64);
+    let (n, s) = (any(), any());
+    let memory = Memory::new(256);
+    let mut handle: Box<*mut Handle> = Box::new(ptr::null_mut());
+    // SAFETY: a buffer of so many bytes, a place for the handle.
+    let status = unsafe { init(memory.at().cast(), 256, n, s, &mut *handle) };
+    let expected = match size(n, s) {
+        0 => HOOKE_TOO_LARGE,
+        257.. => HOOKE_TOO_SMALL,
+        _ => HOOKE_OK,
+    };
+    assert_eq!(status as i32, expected as i32, "a scene of {n} particles and {s} springs");
 }
 
 /// A scene in a buffer that is large enough, after tries in some that are not.

@@ -13,7 +13,7 @@ use hooke_harness::heap::Heap;
 
 use crate::bytes::Bytes;
 use network::Network;
-use trial::trial;
+use trial::{ACTIONS, trial, two_stages};
 
 /// A scene that grows.
 type Heaped<T> = MassSpring<Heap<T>>;
@@ -41,18 +41,26 @@ fn solve<T: Real>(choice: u8, network: &Network, bytes: Bytes<'_>) {
     let zeros = |n: usize| vec![T::ZERO; n];
     let lanes = |scene: &mut Heaped<T>| WideJacobi::needs_of(scene, true);
     match choice % 10 {
-        0 => trial::<T, _>(network, bytes, false, |_| (0, 0), |_| BlockJacobi),
-        1 => trial::<T, _>(network, bytes, false, |_| (Ssor::needs(n), 0), |(a, _)| Ssor::new(zeros(a))),
+        0 => trial::<T, _>(network, bytes, false, |_| (0, 0), |_| BlockJacobi, Some(two_stages)),
+        1 => {
+            trial::<T, _>(network, bytes, false, |_| (Ssor::needs(n), 0), |(a, _)| Ssor::new(zeros(a)), None)
+        }
         2 => trial::<T, _>(
             network,
             bytes,
             false,
             |_| (BlockIlu::needs(n), 0),
             |(a, _)| BlockIlu::new(zeros(a)),
+            None,
         ),
-        3 => trial::<T, _>(network, bytes, true, lanes, |(a, b)| {
-            WideJacobi::new(zeros(a), vec![0; b], Portable)
-        }),
+        3 => trial::<T, _>(
+            network,
+            bytes,
+            true,
+            lanes,
+            |(a, b)| WideJacobi::new(zeros(a), vec![0; b], Portable),
+            None,
+        ),
         4 => {
             let needs = Multigrid::needs(n, springs);
             trial::<T, _>(
@@ -61,15 +69,23 @@ fn solve<T: Real>(choice: u8, network: &Network, bytes: Bytes<'_>) {
                 false,
                 |_| needs,
                 |(a, b)| Multigrid::new(vec![0.0; a], vec![0; b], Portable),
+                None,
             )
         }
         5 => {
-            let (numbers, words) = Multigrid::needs(n, springs);
-            // Two workspaces: the multigrid's is never short.
-            trial::<T, _>(network, bytes, true, lanes, |(a, b)| {
-                let multigrid = Multigrid::new(vec![0.0; numbers], vec![0; words], Portable);
-                Wide::new(zeros(a), vec![0; b], Portable).around(multigrid)
-            })
+            // Two workspaces, and an error does not tell which of them it is about: the multigrid's is never short.
+            let (numbers, words) = Multigrid::needs(n, springs + ACTIONS);
+            trial::<T, _>(
+                network,
+                bytes,
+                true,
+                lanes,
+                |(a, b)| {
+                    let multigrid = Multigrid::new(vec![0.0; numbers], vec![0; words], Portable);
+                    Wide::new(zeros(a), vec![0; b], Portable).around(multigrid)
+                },
+                None,
+            )
         }
         6 => trial::<T, _>(
             network,
@@ -77,13 +93,19 @@ fn solve<T: Real>(choice: u8, network: &Network, bytes: Bytes<'_>) {
             false,
             |s| (BandedLdl::needs_of(s), 0),
             |(a, _)| BandedLdl::new(zeros(a)),
+            Some(two_stages),
         ),
         7 => {
             let banded = BandedLdl::needs(n, n);
             let lanes = |scene: &mut Heaped<T>| BandedLdl::needs_in_lanes_of(scene, true).1;
-            trial::<T, _>(network, bytes, true, lanes, |(a, b)| {
-                Wide::new(zeros(a), vec![0; b], Portable).around(BandedLdl::new(zeros(banded)))
-            })
+            trial::<T, _>(
+                network,
+                bytes,
+                true,
+                lanes,
+                |(a, b)| Wide::new(zeros(a), vec![0; b], Portable).around(BandedLdl::new(zeros(banded))),
+                None,
+            )
         }
         8 => trial::<T, _>(
             network,
@@ -91,6 +113,7 @@ fn solve<T: Real>(choice: u8, network: &Network, bytes: Bytes<'_>) {
             false,
             |_| (0, 0),
             |(a, b)| SparseLdl::new(order.clone(), zeros(a), vec![0; b]),
+            Some(two_stages),
         ),
         _ => trial::<T, _>(
             network,
@@ -98,6 +121,7 @@ fn solve<T: Real>(choice: u8, network: &Network, bytes: Bytes<'_>) {
             false,
             |_| (0, 0),
             |(a, b)| SparseLdl::new(order.clone(), Single(vec![0.0; a]), vec![0; b]),
+            None,
         ),
     }
 }

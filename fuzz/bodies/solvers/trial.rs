@@ -1,6 +1,6 @@
 //! A trial: steps with one solver that keeps what it knows, and changes of the scene between them.
 
-use hooke::{Drag, LinearlyImplicitEuler, Real, Rosenbrock2, Solver, SpringDamping, StepError};
+use hooke::{Drag, LinearlyImplicitEuler, Real, Report, Rosenbrock2, Solver, SpringDamping, StepError};
 
 use super::network::Network;
 use super::reference::Reference;
@@ -9,31 +9,59 @@ use crate::bytes::Bytes;
 use crate::kernel::visible;
 
 /// Steps and changes of one trial.
-const ACTIONS: usize = 5;
+pub const ACTIONS: usize = 5;
 /// So often may an island ask for a larger workspace: for its pattern, its factor, and once more.
 const ANSWERS: usize = 3;
 
 /// Options of a trial's steps.
-struct Options {
+pub struct Options {
     dt: f64,
     drag: f64,
     damping: f64,
     tolerance: f64,
     iterations: u32,
-    /// By two stages with one matrix, which nothing but the report tells the exactness of
-    stages: bool,
+    /// By the other method, of which nothing but the report tells the exactness
+    other: bool,
     /// Is a large system to be judged too, at the first step?
     large: bool,
 }
 
+/// A step of another method.
+pub type Other<T, S> = fn(&mut Heaped<T>, &mut S, &Options) -> Result<Report<T>, StepError>;
+
+/// All forces and options that bytes choose, for any method.
+macro_rules! method {
+    ($method:expr, $options:expr) => {
+        $method
+            .gravity([0.0, -9.81, 0.0].map(T::from_f64))
+            .with(Drag(T::from_f64($options.drag)))
+            .with(SpringDamping(T::from_f64($options.damping)))
+            .tolerance(T::from_f64($options.tolerance))
+            .max_iterations($options.iterations)
+    };
+}
+
+/// The step of a method that solves twice with one matrix.
+pub fn two_stages<T: Real, S: Solver<T>>(
+    scene: &mut Heaped<T>,
+    solver: &mut S,
+    options: &Options,
+) -> Result<Report<T>, StepError> {
+    // What is in the memory must not matter.
+    let memory = vec![[T::from_f64(f64::NAN); 3]; Rosenbrock2::<T, ()>::needs(scene.positions().len())];
+    scene.step(&mut method!(Rosenbrock2::new(T::from_f64(options.dt), memory), options).solver(solver))
+}
+
 /// Tries one solver, made by `make` in a workspace that `needs` tells the size of, or in a smaller one. `lanes`: does it add
-/// up b in an order of its own?
+/// up b in an order of its own? `other` is tried in place of linearly-implicit Euler where the bytes say so: not with all
+/// solvers, since each pair is compiled anew.
 pub fn trial<T: Real, S: Solver<T>>(
     network: &Network,
     mut bytes: Bytes<'_>,
     lanes: bool,
     needs: impl Fn(&mut Heaped<T>) -> Size,
     make: impl Fn(Size) -> S,
+    other: Option<Other<T, S>>,
 ) {
     let mut scene = network.build::<T>();
     let flags = bytes.byte();
@@ -44,7 +72,7 @@ pub fn trial<T: Real, S: Solver<T>>(
         damping: number(4, 0.0),
         tolerance: number(8, 1.0) * 1e-3,
         iterations: if flags & 16 == 0 { 1000 } else { 3 },
-        stages: flags & 64 != 0,
+        other: flags & 64 != 0,
         large: flags & 128 != 0,
     };
     // A workspace for the scene before anything changes, less than that, or nothing.
@@ -52,12 +80,13 @@ pub fn trial<T: Real, S: Solver<T>>(
     if flags & 32 != 0 {
         size = (size.0 / 2, size.1 / 2);
     }
+    let other = other.filter(|_| options.other);
     let mut solver = make(size);
     for action in 0..ACTIONS {
         let mut answers = 0;
         options.large &= action == 0;
         while let Err(StepError::Workspace { numbers, words }) =
-            step(&mut scene, &mut solver, &options, lanes)
+            step(&mut scene, &mut solver, &options, lanes, other)
         {
             let short = numbers > size.0 || words > size.1;
             assert!(short, "{numbers} numbers and {words} words are asked for where {size:?} are");
@@ -79,29 +108,16 @@ fn step<T: Real, S: Solver<T>>(
     solver: &mut S,
     options: &Options,
     lanes: bool,
+    other: Option<Other<T, S>>,
 ) -> Result<(), StepError> {
     let real = T::from_f64;
-    let n = scene.positions().len();
     let before = visible(scene);
-    macro_rules! method {
-        ($method:expr) => {
-            $method
-                .gravity([0.0, -9.81, 0.0].map(real))
-                .with(Drag(real(options.drag)))
-                .with(SpringDamping(real(options.damping)))
-                .tolerance(real(options.tolerance))
-                .max_iterations(options.iterations)
-        };
-    }
-    let dt = real(options.dt);
-    let mut euler = method!(LinearlyImplicitEuler::new(dt));
-    let reference = if options.stages { None } else { Reference::of(scene, &mut euler, options.large) };
+    let mut euler = method!(LinearlyImplicitEuler::new(real(options.dt)), options);
+    let reference = if other.is_some() { None } else { Reference::of(scene, &mut euler, options.large) };
     assert_eq!(visible(scene), before, "a look changes nothing");
-    let report = if options.stages {
-        let memory = vec![[real(f64::NAN); 3]; Rosenbrock2::<T, ()>::needs(n)];
-        scene.step(&mut method!(Rosenbrock2::new(dt, memory)).solver(solver))
-    } else {
-        scene.step(&mut euler.solver(solver))
+    let report = match other {
+        Some(step) => step(scene, solver, options),
+        None => scene.step(&mut euler.solver(solver)),
     };
     let now = visible(scene);
     let r = match report {
