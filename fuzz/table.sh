@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # fuzz/table.sh: what the runs of fuzz/run.sh came to, from their logs: seconds and executions of all of them, edges and features
-# covered in the last. `rm -r $CARGO_TARGET_DIR/logs` begins anew.
+# covered by the best of them. `rm -r $CARGO_TARGET_DIR/logs` begins anew.
 set -euo pipefail
 cd "$(dirname "$0")"
 target_dir=${CARGO_TARGET_DIR:-$PWD/target}
@@ -13,9 +13,8 @@ for first in "$target_dir"/logs/*.0.log; do
         /^Done [0-9]+ runs in/ { seconds += $5; timed += $2 }
         /^stat::number_of_executed_units/ { runs += $2 }
         /^SUMMARY: libFuzzer/ { findings++ }
-        / cov: / { for (i = 1; i < NF; i++) { if ($i == "cov:") cov = $(i + 1); if ($i == "ft:") ft = $(i + 1); if ($i == "corp:") kept = $(i + 1) } }
+        / cov: / { for (i = 1; i < NF; i++) { if ($i == "cov:" && $(i + 1) > cov) cov = $(i + 1); if ($i == "ft:" && $(i + 1) > ft) ft = $(i + 1); if ($i == "corp:" && $(i + 1) + 0 > kept) kept = $(i + 1) + 0 } }
         END {
-            sub("/.*", "", kept)
             printf "| `%s` | %d | %d | %d | %d | %d | %d | %d |\n", target, seconds, runs, (seconds ? timed / seconds : 0), cov, ft, kept, findings
         }'
 done
