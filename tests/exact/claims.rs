@@ -20,7 +20,8 @@ fn between<'a>(text: &'a str, open: &'a str, close: &'a str) -> impl Iterator<It
 fn every_test_that_claims_name_exists() {
     let page = page();
     let mut named = 0;
-    for (name, _) in between(&page, "`", "`").filter(|(name, _)| name.contains("::")) {
+    // What stands in backquotes is every other part between them.
+    for name in page.split('`').skip(1).step_by(2).filter(|name| name.contains("::")) {
         let parts: Vec<&str> = name.split("::").collect();
         let file = here(&format!("{}/{}.rs", parts[0], parts[1]));
         let text = fs::read_to_string(&file).unwrap_or_else(|error| panic!("{name}: {file:?}: {error}"));
