@@ -17,7 +17,10 @@ fn stream(seed: u64) -> impl FnMut() -> u8 {
 }
 
 /// Every file of a target's corpus, and every one with some bytes changed and cut short.
-fn replay(target: &str, body: fn(&[u8])) {
+/// What a target does with bytes.
+type Body = fn(&[u8]);
+
+fn replay(target: &str, body: Body) {
     let corpus = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fuzz/corpus").join(target);
     let mut files = 0;
     for entry in fs::read_dir(&corpus).expect("the corpus is checked in") {
@@ -39,7 +42,7 @@ fn replay(target: &str, body: fn(&[u8])) {
 }
 
 /// So many pseudo-random inputs of up to so many bytes.
-fn play(body: fn(&[u8]), inputs: u64, longest: usize) {
+fn play(body: Body, inputs: u64, longest: usize) {
     for seed in 1..=inputs {
         let mut next = stream(seed);
         let length = usize::from(next()) * longest / 255;
@@ -67,7 +70,7 @@ fn any_sequence_of_calls_from_c_does_what_it_does_from_rust() {
 
 #[test]
 fn any_bytes_are_a_mesh_or_an_error() {
-    let targets: [(&str, fn(&[u8])); 7] = [
+    let targets: [(&str, Body); 7] = [
         ("mesh_obj", mesh::obj),
         ("mesh_medit", mesh::medit),
         ("mesh_gmsh", mesh::gmsh),
