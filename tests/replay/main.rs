@@ -16,10 +16,10 @@ fn stream(seed: u64) -> impl FnMut() -> u8 {
     }
 }
 
-/// Every file of a target's corpus, and every one with some bytes changed and cut short.
 /// What a target does with bytes.
 type Body = fn(&[u8]);
 
+/// Every file of a target's corpus, and every one with some bytes changed and cut short.
 fn replay(target: &str, body: Body) {
     let corpus = Path::new(env!("CARGO_MANIFEST_DIR")).join("../fuzz/corpus").join(target);
     let mut files = 0;
