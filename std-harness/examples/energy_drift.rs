@@ -106,7 +106,7 @@ fn plot(file: &Path, title: &str, curves: &[Curve]) -> Result<(), Box<dyn Error>
     }
     chart
         .configure_series_labels()
-        .position(SeriesLabelPosition::UpperLeft)
+        .position(SeriesLabelPosition::MiddleRight)
         .background_style(WHITE)
         .border_style(BLACK.mix(0.2))
         .label_font(("sans-serif", 14))
