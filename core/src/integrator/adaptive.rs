@@ -10,8 +10,9 @@
 //! the options and the ends that are asked for.
 //!
 //! J is an error per step, not of a run. A method of order 2 gets up to ten times closer with J a hundred times smaller.
-//! Where the method has no stable step, where J is below what rounding makes of a step, ½u²Σm(|q̇|² + |q|²/h²), where a shorter step has no smaller error, or after 24
-//! rejections, [`StepError::Accuracy`], and [`Adaptive::attained`] tells the least E that is to be had.
+//! Where the method has no stable step, where J is below what rounding makes of a step, ½u²Σm(|q̇|² + |q|²/h²), where a shorter
+//! step has no smaller error, or after 24 rejections, [`StepError::Accuracy`], and [`Adaptive::attained`] tells the least E that
+//! is to be had.
 //!
 //! Source: Gustafsson 1991, *Control theoretic techniques for stepsize selection in explicit Runge–Kutta methods*; Söderlind
 //! 2003, *Digital filters in adaptive time-stepping*.
