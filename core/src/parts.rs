@@ -106,7 +106,8 @@ impl<M: Memory> Islands<M> {
             spring: part(&self.spring, island.springs()),
             anchors,
             pin_velocity,
-            first_pin: self.free - first,
+            // Whoever damages the lists of a scene in a buffer gets wrong numbers, not a panic.
+            first_pin: self.free.saturating_sub(first),
         }
     }
 }

@@ -29,6 +29,9 @@ pub const ROTATED_ENERGY: f64 = 100.0;
 /// One component of a particle's force against a precise derivative, units of u·Σ k(l + l₀): l 3u, u 4u, tension and product
 /// 2u, the sum over at most 20 springs 20u (derived).
 pub const SPRING_FORCE: f64 = 32.0;
+/// Speed along one short clamped spring after a step, units of u·(1 m/s), its speed below 1.8 m/s: its direction 4u, tension 3u,
+/// w 9u twice, the right side 4u, a solve of one row 10u (derived: below 64).
+pub const SHORT_SPRING_SPEED: f64 = 64.0;
 /// Energies, units of u·(T + Σ k·4 max(l₀, 1)²): 8u per term and 20u for the sum (derived).
 pub const ENERGY: f64 = 32.0;
 /// A row of a force or stiffness product against dense matrices, units of u·Σ k(l + l₀)(1 + l₀/l): 13u from compression, as

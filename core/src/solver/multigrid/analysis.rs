@@ -4,9 +4,9 @@ use super::block::{FULL, TIED};
 use super::level::{Pattern, Size};
 use super::matching::{self, aggregate};
 use super::record::{RECORD, Shape, remember};
-use super::runs::{LOOSE, SPARSE, arrange, sort};
 use super::sizes::{DENSE, most_edges, most_numbers, most_rows};
 use super::springs::{ends_of_springs, weigh};
+use super::strips::{Edges, LOOSE, SPARSE, arrange, measure, sort};
 use super::tile::WIDTH;
 use super::words::{NONE, get, set, take};
 use crate::parts::Matrix;
@@ -26,7 +26,7 @@ pub(super) fn analyse<T: Real>(
 ) -> Option<Shape> {
     let (rows, springs) = (matrix.own.len(), matrix.other.len());
     let record = take(&mut kept, RECORD)?;
-    let mut places = take(&mut kept, springs)?;
+    let mut places: &mut [[u32; 2]] = take(&mut kept, 2 * springs)?.as_chunks_mut().0;
     let tie = take(&mut numbers, rows)?;
     let (weight, joint_weight) = (take(&mut numbers, springs)?, take(&mut numbers, springs)?);
     let mut part = |n| take(&mut scratch, n);
@@ -46,21 +46,14 @@ pub(super) fn analyse<T: Real>(
         let (order, other) = touching.split_at_mut_checked(springs)?;
         let sorted = sort(size.rows, input, order, other, first);
         let per_place = if finest { TIED } else { FULL };
-        let mut count = 0;
-        // Runs if there is room for them; if not, loose edges, which take least.
-        let (mut sparse, mut level_numbers) = (SPARSE, 0);
-        for limit in [SPARSE, 0] {
-            (sparse, count) = (limit, 0);
-            size.extent = arrange(
-                input,
-                sorted,
-                per_place,
-                finest,
-                limit,
-                |_| (),
-                |_, _, new| count += usize::from(new),
-            );
-            level_numbers = per_place * size.extent.places + FULL * WIDTH * size.extent.loose;
+        // Strips if there is room for them; if not, loose edges, which take least. (A strip takes a third of the time of a loose
+        // edge, however empty it is; but nothing must be left for the coarser levels if the finest took all.)
+        let mut joined = Edges { ends: input, sorted, alone: finest, sparse: SPARSE };
+        let (mut count, mut level_numbers) = (0, 0);
+        for limit in if finest { [SPARSE, SPARSE, 0] } else { [4 * SPARSE, SPARSE, 0] } {
+            joined.sparse = limit;
+            (size.extent, count) = measure(joined);
+            level_numbers = WIDTH * (per_place * size.extent.strips + FULL * size.extent.loose);
             if all_numbers + level_numbers <= most_numbers(springs) {
                 break;
             }
@@ -79,7 +72,8 @@ pub(super) fn analyse<T: Real>(
         let mut whole = &mut *kept;
         let mut pattern = Pattern::carve(&mut whole, size)?;
         let list = Joint { ends: &mut joint, weight: joint_weight, place: from };
-        lay_out(input, (sorted, sparse), weight, finest, &mut pattern, places, list);
+        let [next, ..] = &mut lists;
+        lay_out(joined, weight, &mut pattern, next, places, list);
         shape.levels += 1;
         let pairs = [joint[0].get(..count)?, joint[1].get(..count)?];
         let coarse = if size.rows <= DENSE {
@@ -113,51 +107,37 @@ struct Joint<'j, 's> {
     place: &'j mut [u32],
 }
 
-/// Writes a level's runs and loose ends, the place of every edge that comes in, and the list of its edges.
+/// Writes a level's strips and loose ends, the place of every edge that comes in, and the list of its edges.
 fn lay_out(
-    [a, b]: [&[u32]; 2],
-    (sorted, sparse): (&[u32], usize),
+    edges: Edges<'_>,
     weight: &[f32],
-    finest: bool,
     pattern: &mut Pattern<'_>,
-    places: &mut [u32],
+    next: &mut [u32],
+    places: &mut [[u32; 2]],
     list: Joint<'_, '_>,
 ) {
-    let Pattern { runs, loose: [loose_a, loose_b], .. } = pattern;
-    places.fill(NONE);
+    let Pattern { strips, loose: [loose_a, loose_b], .. } = pattern;
+    places.fill([NONE; 2]);
     loose_a.fill(NONE);
     loose_b.fill(NONE);
-    let mut runs = runs.iter_mut();
     let mut last = NONE as usize;
-    arrange(
-        [a, b],
-        sorted,
-        if finest { TIED } else { FULL },
-        finest,
-        sparse,
-        |run| {
-            if let Some(place) = runs.next() {
-                *place = run;
-            }
-        },
-        |edge, place, new| {
-            let edge = edge as usize;
-            let (a, b) = (get(a, edge), get(b, edge));
-            last = if last == NONE as usize { 0 } else { last + usize::from(new) };
-            let weight = weight.get(edge).copied().unwrap_or(0.0);
-            if let Some(sum) = list.weight.get_mut(last) {
-                *sum = if new { weight } else { *sum + weight };
-            }
-            set(list.ends[0], last, a);
-            set(list.ends[1], last, b);
-            set(list.place, last, place);
-            set(places, edge, place);
-            if place & LOOSE != 0 {
-                set(loose_a, (place & !LOOSE) as usize, a);
-                set(loose_b, (place & !LOOSE) as usize, b);
-            }
-        },
-    );
+    let [a, b] = edges.ends;
+    arrange(edges, strips, next, places, |edge, place, new| {
+        let edge = edge as usize;
+        let (a, b) = (get(a, edge), get(b, edge));
+        last = if last == NONE as usize { 0 } else { last + usize::from(new) };
+        let weight = weight.get(edge).copied().unwrap_or(0.0);
+        if let Some(sum) = list.weight.get_mut(last) {
+            *sum = if new { weight } else { *sum + weight };
+        }
+        set(list.ends[0], last, a);
+        set(list.ends[1], last, b);
+        set(list.place, last, place);
+        if place & LOOSE != 0 {
+            set(loose_a, (place & !LOOSE) as usize, a);
+            set(loose_b, (place & !LOOSE) as usize, b);
+        }
+    });
 }
 
 /// Puts rows together; answers how many aggregates there are.

@@ -1,6 +1,5 @@
-//! The blocks of a run's edges: on the finest level a spring's α and w, elsewhere a symmetric matrix; one plane per number.
+//! The blocks of a strip's edges: on the finest level a spring's α and w, elsewhere a symmetric matrix.
 
-use super::planes::cut;
 use super::tile::{Tile, Tile3, Tile6, add, add3, dot, mul, scale, symmetric};
 
 /// Numbers of αI + wwᵀ.
@@ -8,15 +7,13 @@ pub(super) const TIED: usize = 4;
 /// Numbers of a symmetric matrix.
 pub(super) const FULL: usize = 6;
 
-/// How a run's blocks are kept.
+/// How a strip's blocks are kept.
 pub(super) trait Kind {
-    /// Numbers of a block
-    const NUMBERS: usize;
-    /// A tile of blocks
+    /// A strip's blocks
     type Blocks: Copy;
 
-    /// A stretch of planes of this length, tile by tile.
-    fn tiles(run: &[f32], length: usize, at: usize, n: usize) -> impl Iterator<Item = Self::Blocks>;
+    /// The strips whose numbers lie there.
+    fn strips(numbers: &[f32]) -> &[Self::Blocks];
 
     /// Blocks times v.
     fn times(blocks: Self::Blocks, v: Tile3) -> Tile3;
@@ -29,16 +26,11 @@ pub(super) trait Kind {
 pub(super) struct Tied;
 
 impl Kind for Tied {
-    const NUMBERS: usize = TIED;
     type Blocks = [Tile; TIED];
 
     #[inline(always)]
-    fn tiles(run: &[f32], length: usize, at: usize, n: usize) -> impl Iterator<Item = [Tile; TIED]> {
-        let w = vectors(run, length, at + length, n);
-        cut(run, at, n).iter().zip(w).map(
-            #[inline(always)]
-            |(alpha, [x, y, z])| [*alpha, x, y, z],
-        )
+    fn strips(numbers: &[f32]) -> &[[Tile; TIED]] {
+        numbers.as_chunks().0.as_chunks().0
     }
 
     #[inline(always)]
@@ -58,15 +50,11 @@ impl Kind for Tied {
 pub(super) struct Full;
 
 impl Kind for Full {
-    const NUMBERS: usize = FULL;
     type Blocks = Tile6;
 
     #[inline(always)]
-    fn tiles(run: &[f32], length: usize, at: usize, n: usize) -> impl Iterator<Item = Tile6> {
-        vectors(run, length, at, n).zip(vectors(run, length, at + 3 * length, n)).map(
-            #[inline(always)]
-            |([xx, yy, zz], [xy, xz, yz])| [xx, yy, zz, xy, xz, yz],
-        )
+    fn strips(numbers: &[f32]) -> &[Tile6] {
+        numbers.as_chunks().0.as_chunks().0
     }
 
     #[inline(always)]
@@ -78,14 +66,4 @@ impl Kind for Full {
     fn matrices(blocks: Tile6) -> Tile6 {
         blocks
     }
-}
-
-/// Three planes.
-#[inline(always)]
-fn vectors(run: &[f32], length: usize, at: usize, n: usize) -> impl Iterator<Item = Tile3> {
-    let (x, y) = (cut(run, at, n), cut(run, at + length, n));
-    x.iter().zip(y).zip(cut(run, at + 2 * length, n)).map(
-        #[inline(always)]
-        |((x, y), z)| [*x, *y, *z],
-    )
 }

@@ -3,8 +3,11 @@
 //! a level to that) makes the level be smoothed instead.
 
 use super::sizes::UNKNOWNS;
-use super::tile::{WIDTH, add, mul, sub};
+use super::tile::{add, mul, sub};
 use crate::wide::Dispatch;
+
+/// Unknowns in a tile.
+const WIDTH: usize = 8;
 
 /// Factors of a matrix of `unknowns`, a multiple of eight at most 72.
 pub(super) struct Dense<'a> {

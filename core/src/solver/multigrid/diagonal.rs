@@ -2,9 +2,8 @@
 
 use super::block::{Full, Kind, Tied};
 use super::galerkin::loose_block;
-use super::level::{Level, each_run, meet};
-use super::planes::{Planes6, cut};
-use super::runs::length;
+use super::level::{Level, tiles};
+use super::planes::cut;
 use super::tile::{Tile, Tile6, WIDTH, add, mul, sub};
 use crate::real::larger;
 use crate::wide::Dispatch;
@@ -27,59 +26,50 @@ impl Level<'_> {
 
     #[inline(always)]
     fn invert_of<K: Kind>(&mut self) {
-        let rows = self.pattern.size.rows.next_multiple_of(WIDTH);
+        let count = self.pattern.size.rows.div_ceil(WIDTH);
         let Self { pattern, held_count, blocks, mass, held, inverse, loose, .. } = self;
-        inverse.clear();
-        let masses = cut(mass, WIDTH, rows).iter();
-        for (sum, mass) in inverse.tiles_mut(WIDTH, rows).zip(masses) {
-            let [xx, yy, zz, ..] = sum;
-            (*xx, *yy, *zz) = (*mass, *mass, *mass);
+        let rows = inverse.iter_mut().zip(cut(mass, WIDTH, WIDTH * count));
+        for ((sum, mass), edges) in rows.zip(tiles::<K>(&pattern.strips, blocks, [0, count])) {
+            let zero = [0.0; WIDTH];
+            let mut diagonal = [*mass, *mass, *mass, zero, zero, zero];
+            for (_, blocks) in edges {
+                diagonal = add6(diagonal, K::matrices(*blocks));
+            }
+            *sum = diagonal;
         }
-        each_run::<K>(
-            pattern.runs,
-            blocks,
-            #[inline(always)]
-            |run, numbers| {
-                for [row, place, n] in meet(run, 0, rows) {
-                    let length = length(run[2] as usize);
-                    let tiles = K::tiles(numbers, length, place, n);
-                    for (sum, blocks) in inverse.tiles_mut(row + WIDTH, n).zip(tiles) {
-                        let added = add6(read(&sum), K::matrices(blocks));
-                        write(sum, added);
-                    }
-                }
-            },
-        );
         for row in pattern.held_rows.iter().take(*held_count) {
-            inverse.add(*row as usize, held.get(*row as usize).copied().unwrap_or_default());
+            add_to(inverse, *row, held.get(*row as usize).copied().unwrap_or_default());
         }
         let [a, b] = &pattern.loose;
         for (k, (a, b)) in a.iter().zip(b.iter()).enumerate() {
             let block = loose_block(loose, k);
-            inverse.add(*a as usize, block);
-            inverse.add(*b as usize, block);
+            add_to(inverse, *a, block);
+            add_to(inverse, *b, block);
         }
-        invert_all(inverse, rows);
+        for block in inverse.iter_mut() {
+            for half in [0, HALF] {
+                let inverse = invert(block.each_ref().map(|entries| part(entries, half)));
+                for (entries, inverse) in block.iter_mut().zip(inverse) {
+                    for (entry, inverse) in entries.iter_mut().skip(half).zip(inverse) {
+                        *entry = inverse;
+                    }
+                }
+            }
+        }
     }
 }
 
+/// Adds to one row.
 #[inline(always)]
-fn invert_all(blocks: &mut Planes6<'_>, rows: usize) {
-    for block in blocks.tiles_mut(WIDTH, rows) {
-        let inverse = invert(read(&block));
-        write(block, inverse);
+fn add_to(diagonal: &mut [Tile6], row: u32, block: [f32; 6]) {
+    let row = row as usize;
+    if let Some(tile) = diagonal.get_mut(row / WIDTH) {
+        for (entries, value) in tile.iter_mut().zip(block) {
+            if let Some(entry) = entries.get_mut(row % WIDTH) {
+                *entry += value;
+            }
+        }
     }
-}
-
-#[inline(always)]
-fn read([a, b, c, d, e, f]: &[&mut Tile; 6]) -> Tile6 {
-    [**a, **b, **c, **d, **e, **f]
-}
-
-#[inline(always)]
-fn write(to: [&mut Tile; 6], from: Tile6) {
-    let [a, b, c, d, e, f] = to;
-    [*a, *b, *c, *d, *e, *f] = from;
 }
 
 #[inline(always)]
@@ -88,9 +78,19 @@ fn add6(a: Tile6, b: Tile6) -> Tile6 {
     [add(a, p), add(b, q), add(c, r), add(d, s), add(e, t), add(f, u)]
 }
 
+/// So many at a time: they need a third of the stack of a whole tile.
+const HALF: usize = WIDTH / 2;
+
+#[inline(always)]
+fn part(entries: &Tile, from: usize) -> Half {
+    entries.get(from..).and_then(|entries| entries.first_chunk()).copied().unwrap_or([0.0; HALF])
+}
+
+type Half = [f32; HALF];
+
 /// 1/a; where a is not positive the lane is bad.
 #[inline(always)]
-fn reciprocal(a: Tile, bad: &mut Tile) -> Tile {
+fn reciprocal(a: Half, bad: &mut Half) -> Half {
     let mut out = a;
     for ((out, a), bad) in out.iter_mut().zip(a).zip(bad) {
         *out = 1.0 / a;
@@ -101,8 +101,8 @@ fn reciprocal(a: Tile, bad: &mut Tile) -> Tile {
 
 /// As [`crate::Sym3::inverse`] does one; a block that is not positive becomes its largest entry's.
 #[inline(always)]
-fn invert([xx, yy, zz, xy, xz, yz]: Tile6) -> Tile6 {
-    let mut bad = [0.0; WIDTH];
+fn invert([xx, yy, zz, xy, xz, yz]: [Half; 6]) -> [Half; 6] {
+    let mut bad = [0.0; HALF];
     let i1 = reciprocal(xx, &mut bad);
     let (l21, l31) = (mul(xy, i1), mul(xz, i1));
     let i2 = reciprocal(sub(yy, mul(l21, xy)), &mut bad);
@@ -111,7 +111,7 @@ fn invert([xx, yy, zz, xy, xz, yz]: Tile6) -> Tile6 {
     let i3 = reciprocal(sub(sub(zz, mul(l31, xz)), mul(l32, s32)), &mut bad);
     let m31 = sub(mul(l21, l32), l31);
     let (t21, t31, t32) = (mul(i2, l21), mul(i3, m31), mul(i3, l32));
-    let zero = [0.0; WIDTH];
+    let zero = [0.0; HALF];
     let mut instead = xx;
     for (instead, (y, z)) in instead.iter_mut().zip(yy.into_iter().zip(zz)) {
         let largest = larger(larger(*instead, y), z);
@@ -128,7 +128,7 @@ fn invert([xx, yy, zz, xy, xz, yz]: Tile6) -> Tile6 {
 }
 
 #[inline(always)]
-fn choose(bad: Tile, instead: Tile, mut tile: Tile) -> Tile {
+fn choose(bad: Half, instead: Half, mut tile: Half) -> Half {
     for (entry, (bad, instead)) in tile.iter_mut().zip(bad.into_iter().zip(instead)) {
         *entry = if bad > 0.0 { instead } else { *entry };
     }

@@ -2,8 +2,7 @@
 
 use super::block::{Full, Kind, Tied};
 use super::galerkin::{lane, loose_block};
-use super::level::{Level, each_run};
-use super::runs::length;
+use super::level::{Level, tiles};
 use super::tile::WIDTH;
 use crate::sym3::Sym3;
 
@@ -35,20 +34,20 @@ impl Level<'_> {
         }
     }
 
-    /// The edges of the runs.
+    /// The edges of the strips, each at its lower row.
     fn each_tile<K: Kind>(&self, rows: usize, edge: &mut impl FnMut(usize, usize, [f32; 6])) {
-        each_run::<K>(self.pattern.runs, self.blocks, |[first, offset, tiles], numbers| {
-            let tiles = tiles as usize;
-            for (t, blocks) in K::tiles(numbers, length(tiles), WIDTH, WIDTH * tiles).enumerate() {
-                let matrices = K::matrices(blocks);
+        let count = rows.div_ceil(WIDTH);
+        for (tile, edges) in tiles::<K>(&self.pattern.strips, self.blocks, [0, count]).enumerate() {
+            for (offset, blocks) in edges.filter(|(offset, _)| **offset as i32 > 0) {
+                let matrices = K::matrices(*blocks);
                 for k in 0..WIDTH {
-                    let a = first as usize + WIDTH * t + k;
-                    let b = a + offset as usize;
+                    let a = WIDTH * tile + k;
+                    let b = a + *offset as usize;
                     if b < rows {
                         edge(a, b, lane(&matrices, k));
                     }
                 }
             }
-        });
+        }
     }
 }

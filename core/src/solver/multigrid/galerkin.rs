@@ -6,8 +6,7 @@
 use super::block::{FULL, TIED};
 use super::level::Level;
 use super::planes::Planes;
-use super::runs::LOOSE;
-use super::strides::Strides;
+use super::strips::LOOSE;
 use super::tile::{Tile6, WIDTH};
 use super::words::{NONE, get, set};
 use crate::force::Force;
@@ -53,7 +52,7 @@ impl Level<'_> {
     pub(super) fn fill<T: Real, F: Force<T>>(
         &mut self,
         system: &System<'_, T, F>,
-        slot_of: &[u32],
+        place_of: &[[u32; 2]],
         scale: T,
     ) {
         self.clear();
@@ -62,13 +61,12 @@ impl Level<'_> {
             *mass = (*m * scale).to_f64() as f32;
         }
         let rows = self.pattern.size.rows;
-        let mut strides = Strides::new(self.pattern.runs, TIED);
-        let mut slots = slot_of.iter();
+        let mut places = place_of.iter();
         let mut last_held = NONE;
         system.each_spring(
             #[inline(always)]
             |row, other, h| {
-                let place = slots.next().copied().unwrap_or(LOOSE) as usize;
+                let [place, mirrored] = places.next().copied().unwrap_or([LOOSE; 2]);
                 let h = tied(h, scale, root);
                 if other >= rows {
                     if row as u32 != last_held {
@@ -77,11 +75,15 @@ impl Level<'_> {
                         self.held_count += 1;
                     }
                     add_to_row(self.held, row, matrix(h));
-                } else if place & LOOSE as usize == 0 {
-                    let stride = strides.of(place);
-                    for (k, value) in h.into_iter().enumerate() {
-                        if let Some(entry) = self.blocks.get_mut(place + k * stride) {
-                            *entry = value;
+                } else if place & LOOSE == 0 {
+                    for place in [place, mirrored] {
+                        let first = first_number::<TIED>(place);
+                        // One question for all of a block's numbers.
+                        let Some(reach) = self.blocks.get_mut(first..first + REACH_OF_FOUR) else { continue };
+                        for (k, value) in h.into_iter().enumerate() {
+                            if let Some(entry) = reach.get_mut(k * WIDTH) {
+                                *entry = value;
+                            }
                         }
                     }
                 } else {
@@ -117,27 +119,24 @@ impl Level<'_> {
         if fine.held_count > 0 {
             self.list_held();
         }
-        let mut from_strides = Strides::new(pattern.runs, if fine.tied { TIED } else { FULL });
-        let mut to_strides = Strides::new(self.pattern.runs, FULL);
-        for (from, to) in pattern.from.iter().zip(pattern.to.iter()) {
-            let (from, to) = (*from as usize, *to as usize);
-            let block = if from & LOOSE as usize != 0 {
-                loose_block(fine.loose, from & !(LOOSE as usize))
+        for (from, places) in pattern.from.iter().zip(pattern.to.iter()) {
+            let block = if *from & LOOSE != 0 {
+                loose_block(fine.loose, (*from & !LOOSE) as usize)
+            } else if fine.tied {
+                matrix(four(fine.blocks, first_number::<TIED>(*from)))
             } else {
-                let stride = from_strides.of(from);
-                let number = |k: usize| fine.blocks.get(from + k * stride).copied().unwrap_or(0.0);
-                if fine.tied {
-                    matrix([number(0), number(1), number(2), number(3)])
-                } else {
-                    [number(0), number(1), number(2), number(3), number(4), number(5)]
-                }
+                full(fine.blocks, first_number::<FULL>(*from))
             };
-            if to & LOOSE as usize != 0 {
-                add_loose(self.loose, to, block);
-            } else {
-                let stride = to_strides.of(to);
+            let [place, _] = *places;
+            if place & LOOSE != 0 {
+                add_loose(self.loose, place, block);
+                continue;
+            }
+            for place in places {
+                let first = first_number::<FULL>(*place);
+                let Some(reach) = self.blocks.get_mut(first..first + REACH) else { continue };
                 for (k, value) in block.into_iter().enumerate() {
-                    if let Some(entry) = self.blocks.get_mut(to + k * stride) {
+                    if let Some(entry) = reach.get_mut(k * WIDTH) {
                         *entry += value;
                     }
                 }
@@ -155,6 +154,32 @@ impl Level<'_> {
     }
 }
 
+/// Where the first of a block's numbers lies, by its place.
+#[inline(always)]
+const fn first_number<const NUMBERS: usize>(place: u32) -> usize {
+    let (strip, lane) = (place as usize / WIDTH, place as usize % WIDTH);
+    strip * (NUMBERS * WIDTH) + lane
+}
+
+/// How far a block's numbers reach, which lie a tile apart.
+const REACH: usize = WIDTH * (FULL - 1) + 1;
+
+/// A matrix's numbers.
+#[inline(always)]
+fn full(blocks: &[f32], first: usize) -> [f32; FULL] {
+    let reach = blocks.get(first..first.wrapping_add(REACH)).unwrap_or(&[0.0; REACH]);
+    [0, 1, 2, 3, 4, 5].map(|k| reach.get(k * WIDTH).copied().unwrap_or(0.0))
+}
+
+/// α and w.
+#[inline(always)]
+fn four(blocks: &[f32], first: usize) -> [f32; TIED] {
+    let reach = blocks.get(first..first.wrapping_add(REACH_OF_FOUR)).unwrap_or(&[0.0; REACH_OF_FOUR]);
+    [0, 1, 2, 3].map(|k| reach.get(k * WIDTH).copied().unwrap_or(0.0))
+}
+
+const REACH_OF_FOUR: usize = WIDTH * (TIED - 1) + 1;
+
 /// The block of a loose edge.
 #[inline(always)]
 pub(super) fn loose_block(loose: &[Tile6], slot: usize) -> [f32; 6] {
@@ -168,8 +193,8 @@ pub(super) fn lane(tile: &Tile6, k: usize) -> [f32; 6] {
 }
 
 #[inline(always)]
-fn add_loose(loose: &mut [Tile6], slot: usize, block: [f32; 6]) {
-    let slot = slot & !(LOOSE as usize);
+fn add_loose(loose: &mut [Tile6], slot: u32, block: [f32; 6]) {
+    let slot = (slot & !LOOSE) as usize;
     if let Some(tile) = loose.get_mut(slot / WIDTH) {
         for (entries, value) in tile.iter_mut().zip(block) {
             if let Some(entry) = entries.get_mut(slot % WIDTH) {

@@ -7,8 +7,8 @@
 //! a tile may reach past the end.
 
 use super::block::{FULL, Kind, TIED};
-use super::planes::{LINE, Planes, Planes6, plane};
-use super::runs::{Extent, Run, length};
+use super::planes::{LINE, Planes, plane};
+use super::strips::{Extent, Strips};
 use super::tile::{Tile6, WIDTH};
 use super::words::{align, take};
 
@@ -33,29 +33,30 @@ pub(super) struct Size {
 /// What depends on the pattern only.
 pub(super) struct Pattern<'a> {
     pub(super) size: Size,
-    pub(super) runs: &'a mut [Run],
+    pub(super) strips: Strips<'a>,
     /// Both ends of the loose edges, NONE where there is none
     pub(super) loose: [&'a mut [u32]; 2],
     /// Each row's row on the next level
     pub(super) aggregate: &'a mut [u32],
     /// Scratch: which rows have held blocks that are not zero
     pub(super) held_rows: &'a mut [u32],
-    /// Where blocks of edges between aggregates lie, and where on the next level they are summed
+    /// Where blocks of edges between aggregates lie, and the two places on the next level where they are summed
     pub(super) from: &'a mut [u32],
-    pub(super) to: &'a mut [u32],
+    pub(super) to: &'a mut [[u32; 2]],
 }
 
 impl<'a> Pattern<'a> {
     pub(super) fn carve(pool: &mut &'a mut [u32], size: Size) -> Option<Self> {
         let loose = WIDTH * size.extent.loose;
+        let first = take(pool, size.rows.div_ceil(WIDTH) + 1)?;
         Some(Self {
             size,
-            runs: take(pool, 3 * size.extent.runs)?.as_chunks_mut().0,
+            strips: Strips { first, offset: take(pool, size.extent.strips)? },
             loose: [take(pool, loose)?, take(pool, loose)?],
             aggregate: take(pool, size.rows)?,
             held_rows: take(pool, size.rows)?,
             from: take(pool, size.cross)?,
-            to: take(pool, size.cross)?,
+            to: take(pool, 2 * size.cross)?.as_chunks_mut().0,
         })
     }
 }
@@ -63,18 +64,18 @@ impl<'a> Pattern<'a> {
 /// A level as it is in one step.
 pub(super) struct Level<'a> {
     pub(super) pattern: Pattern<'a>,
-    /// Are the blocks of runs αI + wwᵀ?
+    /// Are the blocks of strips αI + wwᵀ?
     pub(super) tied: bool,
     /// How many rows are held
     pub(super) held_count: usize,
-    /// The runs' numbers
+    /// The strips' numbers
     pub(super) blocks: &'a mut [f32],
     /// The loose edges' blocks
     pub(super) loose: &'a mut [Tile6],
     pub(super) mass: &'a mut [f32],
     pub(super) held: &'a mut [[f32; 6]],
     /// Inverses of the diagonal blocks
-    pub(super) inverse: Planes6<'a>,
+    pub(super) inverse: &'a mut [Tile6],
     pub(super) x: Planes<'a>,
     pub(super) r: Planes<'a>,
     /// The last change of x, and room for the next
@@ -91,10 +92,11 @@ impl<'a> Level<'a> {
         align(pool, LINE)?;
         let n = plane(size.rows);
         let per_place = if tied { TIED } else { FULL };
-        let blocks = take(pool, per_place * size.extent.places + WIDTH)?;
+        let blocks = take(pool, per_place * WIDTH * size.extent.strips)?;
+        let inverse =
+            take(pool, FULL * WIDTH * size.rows.div_ceil(WIDTH))?.as_chunks_mut().0.as_chunks_mut().0;
         let mut next = || take(pool, n);
         let mass = next()?;
-        let inverse = Planes6([next()?, next()?, next()?, next()?, next()?, next()?]);
         let mut three = || Some(Planes([next()?, next()?, next()?]));
         let (x, r, d) = (three()?, three()?, [three()?, three()?]);
         let loose = take(pool, FULL * WIDTH * size.extent.loose)?.as_chunks_mut().0.as_chunks_mut().0;
@@ -104,31 +106,23 @@ impl<'a> Level<'a> {
     }
 }
 
-/// Visits the runs with their numbers.
+/// The tiles from one on, so many: of each the offsets and blocks of its strips.
 #[inline(always)]
-pub(super) fn each_run<K: Kind>(runs: &[Run], blocks: &[f32], mut visit: impl FnMut(Run, &[f32])) {
-    let mut rest = blocks;
-    for run in runs {
-        let size = K::NUMBERS * length(run[2] as usize);
-        // With the zeros behind, which the next run begins with.
-        let numbers = rest.get(..size + WIDTH).unwrap_or_default();
-        rest = rest.get(size..).unwrap_or_default();
-        visit(*run, numbers);
-    }
-}
-
-/// Where a run meets the rows from i on, `n` of them, both multiples of a tile: first row, place of its block and number of
-/// rows of those whose edges go up, and of those whose edges go down.
-#[inline(always)]
-pub(super) fn meet([first, offset, tiles]: Run, i: usize, n: usize) -> [[usize; 3]; 2] {
-    let (first, offset, rows) = (first as usize, offset as usize, WIDTH * tiles as usize);
-    let upper = |a: usize, b: usize| if a > b { a } else { b };
-    let lower = |a: usize, b: usize| if a < b { a } else { b };
-    let (begin, end) = (upper(i, first), lower(i + n, first + rows));
-    let up = [begin, (begin + WIDTH).wrapping_sub(first), end.saturating_sub(begin)];
-    // Whole tiles of rows, of which some at either end may have no edge.
-    let from = first + offset;
-    let (begin, end) = (upper(i, from - from % WIDTH), lower(i + n, (from + rows).next_multiple_of(WIDTH)));
-    let down = [begin, (begin + WIDTH).wrapping_sub(from), end.saturating_sub(begin)];
-    [up, down]
+pub(super) fn tiles<'l, K: Kind<Blocks: 'l>>(
+    strips: &'l Strips<'_>,
+    blocks: &'l [f32],
+    [tile, count]: [usize; 2],
+) -> impl Iterator<Item = impl Iterator<Item = (&'l u32, &'l K::Blocks)>> {
+    let (offsets, blocks) = (&*strips.offset, K::strips(blocks));
+    strips.first.get(tile..tile + count + 1).unwrap_or_default().windows(2).map(
+        #[inline(always)]
+        move |first| {
+            let range = match first {
+                [first, end] => *first as usize..*end as usize,
+                _ => 0..0,
+            };
+            let offsets = offsets.get(range.clone()).unwrap_or_default();
+            offsets.iter().zip(blocks.get(range).unwrap_or_default())
+        },
+    )
 }

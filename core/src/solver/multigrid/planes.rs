@@ -1,7 +1,7 @@
 //! Planes: a number per row, row 0 at place [`WIDTH`], with a tile of zeros in front and behind, so that a stretch that is a
 //! whole number of tiles long may begin and end a little outside.
 
-use super::tile::{Tile, Tile3, Tile6, WIDTH};
+use super::tile::{Tile, Tile3, WIDTH};
 
 /// Length of a plane.
 pub(super) const fn plane(rows: usize) -> usize {
@@ -108,47 +108,26 @@ pub(super) fn write([x, y, z]: [&mut Tile; 3], [tx, ty, tz]: Tile3) {
     *z = tz;
 }
 
-/// Symmetric matrices: xx yy zz xy xz yz of every row.
-pub(super) struct Planes6<'a>(pub(super) [&'a mut [f32]; 6]);
+/// Three planes of one length, known to be so: a stretch that is in one is in all.
+#[derive(Clone, Copy)]
+pub(super) struct Windows<'p>([&'p [f32]; 3]);
 
-impl Planes6<'_> {
-    /// A stretch, tile by tile.
+impl<'p> Windows<'p> {
     #[inline(always)]
-    pub(super) fn tiles(&self, at: usize, n: usize) -> impl Iterator<Item = Tile6> {
-        let [a, b, c, d, e, f] = &self.0;
-        let upper = cut(a, at, n).iter().zip(cut(b, at, n)).zip(cut(c, at, n));
-        let lower = cut(d, at, n).iter().zip(cut(e, at, n)).zip(cut(f, at, n));
-        upper.zip(lower).map(
-            #[inline(always)]
-            |(((a, b), c), ((d, e), f))| [*a, *b, *c, *d, *e, *f],
-        )
-    }
-
-    /// The same, to be written.
-    #[inline(always)]
-    pub(super) fn tiles_mut(&mut self, at: usize, n: usize) -> impl Iterator<Item = [&mut Tile; 6]> {
-        let [a, b, c, d, e, f] = &mut self.0;
-        let upper = cut_mut(a, at, n).iter_mut().zip(cut_mut(b, at, n)).zip(cut_mut(c, at, n));
-        let lower = cut_mut(d, at, n).iter_mut().zip(cut_mut(e, at, n)).zip(cut_mut(f, at, n));
-        upper.zip(lower).map(
-            #[inline(always)]
-            |(((a, b), c), ((d, e), f))| [a, b, c, d, e, f],
-        )
-    }
-
-    /// Adds to one row.
-    #[inline(always)]
-    pub(super) fn add(&mut self, row: usize, m: [f32; 6]) {
-        for (plane, m) in self.0.iter_mut().zip(m) {
-            if let Some(place) = plane.get_mut(row.saturating_add(WIDTH)) {
-                *place += m;
-            }
+    pub(super) fn of(Planes([x, y, z]): &'p Planes<'_>) -> Self {
+        let n = x.len();
+        match (y.get(..n), z.get(..n)) {
+            (Some(y), Some(z)) => Self([x, y, z]),
+            _ => Self([&[]; 3]),
         }
     }
 
-    pub(super) fn clear(&mut self) {
-        for plane in &mut self.0 {
-            plane.fill(0.0);
-        }
+    /// The rows from a place on, anywhere.
+    #[inline(always)]
+    pub(super) fn at(self, place: usize) -> Option<Tile3> {
+        let Self([x, y, z]) = self;
+        let rows = place..place.wrapping_add(WIDTH);
+        let (x, y, z) = (x.get(rows.clone())?, y.get(rows.clone())?, z.get(rows)?);
+        Some([*x.first_chunk()?, *y.first_chunk()?, *z.first_chunk()?])
     }
 }

@@ -50,7 +50,7 @@ impl<'a, T: Real, D: Dispatch> Preconditioner<'a, T, D> {
         mut kept: &'a mut [u32],
         mut pool: &'a mut [f32],
     ) -> Option<()> {
-        let slot_of = skip_record(&mut kept, system.matrix.other.len())?;
+        let place_of = skip_record(&mut kept, system.matrix.other.len())?;
         self.scale = T::ONE / system.largest();
         let Hierarchy { levels, count, dense } = &mut self.hierarchy;
         *count = shape.levels;
@@ -62,7 +62,7 @@ impl<'a, T: Real, D: Dispatch> Preconditioner<'a, T, D> {
             *level = Level::carve(&mut kept, &mut pool, *size, finer.is_none());
             let level = level.as_mut()?;
             match finer {
-                None => level.fill(system, slot_of, scale),
+                None => level.fill(system, place_of, scale),
                 Some(fine) => level.coarsen(fine),
             }
             level.invert_diagonal(dispatch);
@@ -164,17 +164,58 @@ impl<T: Real, D: Dispatch> Preconditioner<'_, T, D> {
     #[inline(never)]
     fn in_lanes(&mut self, way: Way<'_>, work: &mut Iterates<'_, T>, rows: &[u32], most: T) {
         let Iterates { r, y, .. } = work;
-        let places = || rows.iter().enumerate().map(|(row, particle)| way.place(row, *particle));
-        if self.cycle(places().map(|at| r.row(at)), most) {
-            for (at, z) in places().zip(self.solved(most)) {
-                y.put(at, z);
-            }
-        } else {
-            for at in places() {
-                y.put(at, [T::ZERO; 3]);
-            }
+        let (down, up) = (T::ONE / most, most * self.scale);
+        let solves = most > T::ZERO && down.is_finite() && up.is_finite();
+        if solves && let Some(Some(finest)) = self.hierarchy.levels.first_mut() {
+            each_stretch(way, rows, |row, place, n| {
+                for (to, from) in finest.r.0.iter_mut().zip(&r.0) {
+                    for (to, from) in part_mut(to, row + WIDTH, n).iter_mut().zip(part(from, place, n)) {
+                        *to = (down * *from).to_f64() as f32;
+                    }
+                }
+            });
+            self.hierarchy.cycle(self.dispatch);
         }
+        let finest = self.hierarchy.levels.first().and_then(|level| level.as_ref()).filter(|_| solves);
+        each_stretch(way, rows, |row, place, n| {
+            for (c, to) in y.0.iter_mut().enumerate() {
+                let to = part_mut(to, place, n);
+                let Some(from) = finest.and_then(|level| level.x.0.get(c)) else {
+                    to.fill(T::ZERO);
+                    continue;
+                };
+                for (to, from) in to.iter_mut().zip(part(from, row + WIDTH, n)) {
+                    *to = up * T::from_f64(f64::from(*from));
+                }
+            }
+        });
     }
+}
+
+/// Rows whose places follow one another: visits the first row, its place, and how many there are.
+#[inline(always)]
+fn each_stretch(way: Way<'_>, rows: &[u32], mut visit: impl FnMut(usize, usize, usize)) {
+    let list = match &way {
+        Way::Runs(_) => rows,
+        Way::Slots(slots) => slots.places,
+    };
+    let mut row = 0;
+    for stretch in list.chunk_by(|a, b| b.wrapping_sub(*a) == 1) {
+        if let Some(first) = stretch.first() {
+            visit(row, way.place(row, *first), stretch.len());
+        }
+        row += stretch.len();
+    }
+}
+
+#[inline(always)]
+fn part<X>(plane: &[X], from: usize, n: usize) -> &[X] {
+    plane.get(from..from.saturating_add(n)).unwrap_or_default()
+}
+
+#[inline(always)]
+fn part_mut<X>(plane: &mut [X], from: usize, n: usize) -> &mut [X] {
+    plane.get_mut(from..from.saturating_add(n)).unwrap_or_default()
 }
 
 impl<T: Real, D> Preconditioner<'_, T, D> {

@@ -35,14 +35,15 @@ pub(super) const fn most_edges(springs: usize) -> usize {
 
 /// Numbers of the blocks of all levels of an island.
 pub(super) const fn most_numbers(springs: usize) -> usize {
-    FULL * (most_edges(springs) + LEVELS * WIDTH)
+    // Each twice in strips, once if loose.
+    2 * FULL * (springs + springs / 8 + LEVELS * WIDTH)
 }
 
 /// Words that an island keeps.
 pub(super) const fn words_kept(rows: usize, springs: usize) -> usize {
-    // A loose edge has its ends, a run four edges or more; from and to.
-    let loose = most_levels(rows) * 2 * (WIDTH - 1);
-    RECORD + springs + 4 * most_edges(springs) + loose + 2 * most_rows(rows)
+    // A loose edge has its ends, a strip half an edge or more; from and to.
+    let once = most_levels(rows) * (2 * (WIDTH - 1) + 2);
+    RECORD + 2 * springs + 5 * most_edges(springs) + once + 2 * most_rows(rows) + most_rows(rows) / WIDTH
 }
 
 /// Words that the islands of a scene keep.

@@ -5,9 +5,9 @@
 
 use super::block::{Full, Kind, Tied};
 use super::level::Level;
-use super::planes::{Planes, Planes6, read, write};
+use super::planes::{Planes, read, write};
 use super::product::{subtract, subtract_held};
-use super::tile::{WIDTH, add3, scale, symmetric};
+use super::tile::{Tile6, WIDTH, add3, scale, symmetric};
 use super::transfer::{gather, scatter};
 use crate::wide::Dispatch;
 
@@ -72,10 +72,8 @@ impl Level<'_> {
     #[inline(always)]
     fn walk<K: Kind>(&mut self, coarse_x: &Planes<'_>, coarse_r: &mut Planes<'_>, stages: &[Stage]) {
         let rows = self.pattern.size.rows.next_multiple_of(WIDTH);
-        let farthest =
-            self.pattern.runs.iter().fold(0, |most, run| if run[1] > most { run[1] } else { most });
         // A stage needs what the one before has left in all rows that edges lead to.
-        let lag = (farthest as usize).next_multiple_of(WIDTH) + WIDTH;
+        let lag = self.pattern.size.extent.farthest.next_multiple_of(WIDTH) + WIDTH;
         let mut held = [0; STAGES];
         let Self { pattern, held_count, blocks, mass, held: held_blocks, inverse, x, r, d, .. } = self;
         let held_rows = pattern.held_rows.get(..*held_count).unwrap_or_default();
@@ -95,7 +93,7 @@ impl Level<'_> {
                 let (d, next) = if number % 2 == 0 { (&*even, &mut *odd) } else { (&*odd, &mut *even) };
                 // Two questions after one another: a table of jumps would leave the stack without a bound.
                 if matches!(stage, Stage::Smooth(..) | Stage::Restrict) {
-                    subtract::<K>(pattern.runs, blocks, d, mass, r, next, [i, n]);
+                    subtract::<K>(&pattern.strips, blocks, d, mass, r, [i, n]);
                     subtract_held(held_rows, held_blocks, held, i + n, d, r);
                     if let Stage::Smooth(a, c) = *stage {
                         smooth([a, c], inverse, r, d, x, next, [i, n]);
@@ -118,20 +116,26 @@ impl Level<'_> {
     }
 }
 
+/// Those of n rows from i on.
+#[inline(always)]
+fn blocks(inverse: &[Tile6], [i, n]: [usize; 2]) -> core::slice::Iter<'_, Tile6> {
+    inverse.get(i / WIDTH..(i + n) / WIDTH).unwrap_or_default().iter()
+}
+
 /// x = d = c D⁻¹r
 #[inline(always)]
 fn start(
     c: f32,
-    inverse: &Planes6<'_>,
+    inverse: &[Tile6],
     r: &Planes<'_>,
     x: &mut Planes<'_>,
     d: &mut Planes<'_>,
     [i, n]: [usize; 2],
 ) {
     let at = i + WIDTH;
-    let solved = inverse.tiles(at, n).zip(r.tiles(at, n));
+    let solved = blocks(inverse, [i, n]).zip(r.tiles(at, n));
     for ((inverse, r), (x, d)) in solved.zip(x.tiles_mut(at, n).zip(d.tiles_mut(at, n))) {
-        let change = scale([c; WIDTH], symmetric(inverse, r));
+        let change = scale([c; WIDTH], symmetric(*inverse, r));
         write(x, change);
         write(d, change);
     }
@@ -161,7 +165,7 @@ fn prolong(
 #[inline(always)]
 fn smooth(
     [a, c]: [f32; 2],
-    inverse: &Planes6<'_>,
+    inverse: &[Tile6],
     r: &Planes<'_>,
     d: &Planes<'_>,
     x: &mut Planes<'_>,
@@ -169,9 +173,9 @@ fn smooth(
     [i, n]: [usize; 2],
 ) {
     let at = i + WIDTH;
-    let known = inverse.tiles(at, n).zip(r.tiles(at, n)).zip(d.tiles(at, n));
+    let known = blocks(inverse, [i, n]).zip(r.tiles(at, n)).zip(d.tiles(at, n));
     for (((inverse, r), d), (x, next)) in known.zip(x.tiles_mut(at, n).zip(next.tiles_mut(at, n))) {
-        let z = symmetric(inverse, r);
+        let z = symmetric(*inverse, r);
         let change = add3(scale([a; WIDTH], d), scale([c; WIDTH], z));
         let moved = add3(read(&x), change);
         write(x, moved);

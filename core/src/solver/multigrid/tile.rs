@@ -1,18 +1,18 @@
-//! Eight f32 side by side: what the loops over a level work on. Written so that a compiler finds the vector registers; each
+//! Sixteen f32 side by side: what the loops over a level work on. Written so that a compiler finds the vector registers; each
 //! lane is its own sum, so how wide they are does not touch the bits.
 
 /// How many there are in a tile.
-pub(super) const WIDTH: usize = 8;
+pub(super) const WIDTH: usize = 16;
 
-/// Eight numbers.
+/// A number of each row.
 pub(super) type Tile = [f32; WIDTH];
-/// Eight vectors.
+/// A vector of each row.
 pub(super) type Tile3 = [Tile; 3];
-/// Eight symmetric 3×3 matrices: xx yy zz xy xz yz.
+/// A symmetric 3×3 matrix of each row: xx yy zz xy xz yz.
 pub(super) type Tile6 = [Tile; 6];
 
 #[inline(always)]
-fn zip(mut a: Tile, b: Tile, f: impl Fn(f32, f32) -> f32) -> Tile {
+fn zip<const N: usize>(mut a: [f32; N], b: [f32; N], f: impl Fn(f32, f32) -> f32) -> [f32; N] {
     for (a, b) in a.iter_mut().zip(b) {
         *a = f(*a, b);
     }
@@ -20,17 +20,17 @@ fn zip(mut a: Tile, b: Tile, f: impl Fn(f32, f32) -> f32) -> Tile {
 }
 
 #[inline(always)]
-pub(super) fn add(a: Tile, b: Tile) -> Tile {
+pub(super) fn add<const N: usize>(a: [f32; N], b: [f32; N]) -> [f32; N] {
     zip(a, b, |a, b| a + b)
 }
 
 #[inline(always)]
-pub(super) fn sub(a: Tile, b: Tile) -> Tile {
+pub(super) fn sub<const N: usize>(a: [f32; N], b: [f32; N]) -> [f32; N] {
     zip(a, b, |a, b| a - b)
 }
 
 #[inline(always)]
-pub(super) fn mul(a: Tile, b: Tile) -> Tile {
+pub(super) fn mul<const N: usize>(a: [f32; N], b: [f32; N]) -> [f32; N] {
     zip(a, b, |a, b| a * b)
 }
 
@@ -59,7 +59,7 @@ pub(super) fn dot([a, b, c]: Tile3, [x, y, z]: Tile3) -> Tile {
     add(add(mul(a, x), mul(b, y)), mul(c, z))
 }
 
-/// Eight symmetric matrices times eight vectors.
+/// Symmetric matrices times vectors.
 #[inline(always)]
 pub(super) fn symmetric([xx, yy, zz, xy, xz, yz]: Tile6, v: Tile3) -> Tile3 {
     [dot([xx, xy, xz], v), dot([xy, yy, yz], v), dot([xz, yz, zz], v)]

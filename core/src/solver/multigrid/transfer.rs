@@ -2,6 +2,7 @@
 
 use super::planes::Planes;
 use super::tile::WIDTH;
+use super::words::NONE;
 
 /// d = P x_c in n rows from i on.
 #[inline(always)]
@@ -19,19 +20,21 @@ pub(super) fn gather(aggregate: &[u32], coarse: &Planes<'_>, d: &mut Planes<'_>,
     }
 }
 
-/// Adds Pᵀr of n rows from i on.
+/// Adds Pᵀr of n rows from i on. Rows that follow one another are often of one aggregate: its sum then waits in registers
+/// instead of going through memory.
 #[inline(always)]
 pub(super) fn scatter(aggregate: &[u32], r: &Planes<'_>, coarse: &mut Planes<'_>, [i, n]: [usize; 2]) {
-    let [x, y, z] = &mut coarse.0;
-    // Of one length, so that one comparison does for all three.
-    let places = x.len();
-    let (Some(y), Some(z)) = (y.get_mut(..places), z.get_mut(..places)) else { return };
     let [from_x, from_y, from_z] = r.0.each_ref().map(|plane| plane.get(i + WIDTH..).unwrap_or_default());
     let rows = aggregate.get(i..).unwrap_or_default().iter().take(n);
+    let (mut last, mut sum) = (NONE, [0.0; 3]);
     for (((aggregate, a), b), c) in rows.zip(from_x).zip(from_y).zip(from_z) {
-        let place = *aggregate as usize + WIDTH;
-        if let (Some(x), Some(y), Some(z)) = (x.get_mut(place), y.get_mut(place), z.get_mut(place)) {
-            (*x, *y, *z) = (*x + a, *y + b, *z + c);
+        if *aggregate != last {
+            coarse.put(last as usize, sum);
+            sum = coarse.at(*aggregate as usize);
+            last = *aggregate;
         }
+        let [x, y, z] = sum;
+        sum = [x + a, y + b, z + c];
     }
+    coarse.put(last as usize, sum);
 }
