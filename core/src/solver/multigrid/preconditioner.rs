@@ -199,12 +199,13 @@ fn each_stretch(way: Way<'_>, rows: &[u32], mut visit: impl FnMut(usize, usize, 
         Way::Runs(_) => rows,
         Way::Slots(slots) => slots.places,
     };
-    let mut row = 0;
-    for stretch in list.chunk_by(|a, b| b.wrapping_sub(*a) == 1) {
-        if let Some(first) = stretch.first() {
-            visit(row, way.place(row, *first), stretch.len());
-        }
-        row += stretch.len();
+    let (mut row, mut rest) = (0, list);
+    while let Some(first) = rest.first() {
+        let together = rest.iter().zip(rest.iter().skip(1)).take_while(|(a, b)| b.wrapping_sub(**a) == 1);
+        let n = together.count() + 1;
+        visit(row, way.place(row, *first), n);
+        row += n;
+        rest = rest.get(n..).unwrap_or_default();
     }
 }
 
