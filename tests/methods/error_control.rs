@@ -153,7 +153,7 @@ fn in_single_precision_a_scene_that_leaves_the_range_is_never_an_error_of_dt_how
 }
 
 #[test]
-fn a_motion_is_refused_and_so_are_an_accuracy_a_step_or_memory_that_are_not_valid() {
+fn a_motion_without_an_end_is_refused_and_so_are_an_accuracy_a_step_or_memory_that_are_not_valid() {
     let data = generate::rope(4);
     let refused = |dt: f64, accuracy: f64, memory: Memory, motion: &[Motion<f64>]| {
         let mut scene = build::scene::<f64>(&data);

@@ -10,5 +10,6 @@ mod dense_step;
 mod error_control;
 mod every_method;
 mod minimization;
+mod moving_pins;
 mod orders;
 mod step_limits;

@@ -1,7 +1,7 @@
 //! Observed orders: the differences of runs at h, h/2 and h/4 fall by 2 to the order; and what the estimates of error are worth.
 
 use hooke::{
-    Embedded, Force, Hessian, Motion, Real, Rosenbrock2, Rosenbrock3, Scaling, StepError, force::Rows,
+    Course, Embedded, Force, Hessian, Motion, Real, Rosenbrock2, Rosenbrock3, Scaling, StepError, force::Rows,
 };
 use hooke_tests::data::{PointData, SceneData, distance};
 use hooke_tests::methods::{Method, Method::*, options};
@@ -9,7 +9,7 @@ use hooke_tests::{build, generate};
 use nalgebra::Vector3;
 
 /// A cloth in motion, soft and smooth: with damping and drag if wanted.
-fn cloth(damped: bool) -> SceneData {
+pub(super) fn cloth(damped: bool) -> SceneData {
     let mut cloth = generate::cloth(6);
     for (i, x) in cloth.position.iter_mut().enumerate() {
         // No spring rests and no coordinate is idle.
@@ -31,7 +31,7 @@ fn cloth(damped: bool) -> SceneData {
 }
 
 /// The pin's way: b(t) with an acceleration that changes.
-fn way(start: [f64; 3], t: f64) -> [[f64; 3]; 2] {
+pub(super) fn way(start: [f64; 3], t: f64) -> [[f64; 3]; 2] {
     let (a, w) = (0.05, 25.0);
     let [sin, cos] = [(w * t).sin(), (w * t).cos()];
     [[start[0] + a * sin, start[1] + a * (1.0 - cos), start[2]], [a * w * cos, a * w * sin, 0.0]]
@@ -204,8 +204,8 @@ fn rosenbrock_methods_have_their_order_with_any_symmetric_matrix_and_midpoint_on
 /// One attempt: the estimate's distance and energy, and the farthest that the step itself is off, by many small steps of `ros3`.
 fn estimate<I: Embedded<f64>>(data: &SceneData, mut method: I, h: f64) -> [f64; 3] {
     let mut scene = build::scene::<f64>(data);
-    let (_, error) = method.attempt(&mut scene.parts(), h, 0.0, &mut |_| {}).unwrap();
-    method.accept(scene.parts()).unwrap();
+    let (_, error) = method.attempt(&mut scene.parts(), h, Course::rest(), 0.0, &mut |_| {}).unwrap();
+    method.accept(scene.parts(), Course::rest()).unwrap();
     let exact = run::<f64>(Ros3, data, h, 64, false);
     let off = build::farthest(&build::positions(&scene), &exact[..data.len()]);
     [error.distance, error.energy, off]

@@ -14,7 +14,7 @@ use crate::islands::{Island, Islands};
 use crate::memory::{Memory, part};
 use crate::network::{Network, State};
 use crate::parts::Parts;
-use crate::pins::Motion;
+use crate::pins::Course;
 use crate::real::{Real, larger};
 use crate::report::Report;
 use crate::selection::MARK;
@@ -192,14 +192,14 @@ impl<'a, M: Memory<Real = T>, T: Real> Explicit<'a, M> {
     }
 
     /// Moving pins where and as fast as they are after the part `s` of a step of `dt`.
-    pub(crate) fn pins(&mut self, motion: &[Motion<T>], s: T, dt: T) {
-        for m in motion {
+    pub(crate) fn pins(&mut self, course: Course<'_, T>, s: T, dt: T) {
+        for m in course.motion {
             let (Some(b), Some(rate)) =
                 (self.network.position.get(m.particle), self.network.velocity.get(m.particle))
             else {
                 continue;
             };
-            let [q, v] = m.at(s, dt, *b, *rate);
+            let [q, v] = course.at(m, s, dt, *b, *rate);
             if let (Some(to), Some(to_v)) =
                 (self.position.get_mut(m.particle), self.velocity.get_mut(m.particle))
             {
@@ -300,9 +300,20 @@ impl<'a, M: Memory<Real = T>, T: Real> Explicit<'a, M> {
         energy
     }
 
-    /// Takes the state: what is not finite is refused, and then the scene is as it was.
-    pub(crate) fn commit(self, motion: &[Motion<T>]) -> Result<(), StepError> {
+    /// Takes the state, pins where a step of `dt` leaves them: what is not finite is refused, and then the scene is as it was.
+    pub(crate) fn commit(self, course: Course<'_, T>, dt: T) -> Result<(), StepError> {
         let Self { network, islands, position, velocity, .. } = self;
+        for m in course.motion {
+            let i = m.particle;
+            if let (Some(b), Some(rate), Some(q), Some(v)) =
+                (network.position.get(i), network.velocity.get(i), position.get_mut(i), velocity.get_mut(i))
+            {
+                [*q, *v] = course.end(m, dt, *b, *rate);
+                if !(vec3::is_finite(*q) && vec3::is_finite(*v)) {
+                    return Err(StepError::Motion(i));
+                }
+            }
+        }
         for i in islands.particle.iter().take(islands.free) {
             let i = *i as usize;
             let finite = |list: &[Vec3<T>]| list.get(i).is_some_and(|x| vec3::is_finite(*x));
@@ -323,11 +334,11 @@ impl<'a, M: Memory<Real = T>, T: Real> Explicit<'a, M> {
                 *v = [T::ZERO; 3];
             }
         }
-        for m in motion {
-            if let (Some(q), Some(v)) =
-                (network.position.get_mut(m.particle), network.velocity.get_mut(m.particle))
+        for i in course.motion.iter().map(|m| m.particle) {
+            if let (Some(q), Some(v), Some(end), Some(rate)) =
+                (network.position.get_mut(i), network.velocity.get_mut(i), position.get(i), velocity.get(i))
             {
-                (*q, *v) = (m.position, m.velocity);
+                (*q, *v) = (*end, *rate);
             }
         }
         Ok(())

@@ -18,7 +18,7 @@ use crate::error::StepError;
 use crate::force::Force;
 use crate::memory::Memory;
 use crate::parts::Parts;
-use crate::pins::Motion;
+use crate::pins::{Course, Motion};
 use crate::real::Real;
 use crate::report::{IslandReport, Report};
 use crate::scene::MassSpring;
@@ -63,12 +63,13 @@ impl<T: Real, F: Force<T>, S, Z> Integrator<T> for Stepper<KickDrift, T, F, S, Z
             return Err(StepError::StepLimit(most.particle));
         }
         let mut scene = Explicit::new(parts);
-        scene.pins(motion, T::ZERO, h);
+        let course = Course { motion, over: h };
+        scene.pins(course, T::ZERO, h);
         scene.forces(&self.forces, most.damping > T::ZERO);
         scene.kick(h);
         scene.drift(h);
         let report = scene.report();
-        scene.commit(motion)?;
+        scene.commit(course, h)?;
         Ok(report)
     }
 }
