@@ -3,6 +3,7 @@
 // Indices are those of the formulas.
 #![allow(clippy::needless_range_loop)]
 
+mod clamped;
 mod closed_forms;
 mod coefficients;
 mod conservation;

@@ -320,3 +320,43 @@ fn the_velocity_of_a_pin_is_refused_where_there_is_none_and_moves_nothing() {
         assert_eq!(build::bits(&told), build::bits(&untold), "{method:?}");
     }
 }
+
+#[test]
+fn a_probe_goes_no_farther_than_the_motion_is_known_and_leaves_the_scene_as_it_was() {
+    let data = cloth(true);
+    let mut forces = Forces::<f64>::new(&data);
+    let mut scene = scene::<f64>(&data);
+    let (before, motion) = (build::bits(&scene), [end(&data, 0)]);
+    let method = Rosenbrock2::new(1.0, memory(&data)).with(forces.all());
+    let mut method = Adaptive::new(method, 1.0, 1e-6);
+    assert_eq!(method.probe(&mut scene, &motion).unwrap_err(), StepError::Motion(0));
+    method.end_after(SPAN / 1024.0);
+    let (_, settled) = method.probe(&mut scene, &motion).unwrap();
+    assert!(settled, "there is no longer one to try");
+    // What it asks for may be longer than that, within its twentyfold.
+    let asked = method.dt();
+    assert!(asked > SPAN / 1024.0 && asked <= 20.0 * SPAN / 1024.0, "{asked}");
+    assert_eq!(build::bits(&scene), before);
+}
+
+#[test]
+fn a_pin_that_would_leave_the_numbers_on_its_way_is_refused_also_where_nothing_hangs_on_it() {
+    let mut data = generate::rope(2);
+    data.springs.clear();
+    let motion = [Motion { particle: 0, position: [1.0; 3], velocity: [1e306; 3] }];
+    for explicit in [true, false] {
+        let mut scene = build::scene::<f64>(&data);
+        let before = build::bits(&scene);
+        macro_rules! step {
+            ($method:expr) => {{
+                let mut method = Adaptive::new($method, 1.0, 1e-6);
+                method.end_after(1e3);
+                scene.step_moving(&mut method, &motion)
+            }};
+        }
+        let made =
+            if explicit { step!(Verlet::new(1.0)) } else { step!(Rosenbrock3::new(1.0, memory(&data))) };
+        assert_eq!(made, Err(StepError::Motion(0)));
+        assert_eq!(build::bits(&scene), before);
+    }
+}

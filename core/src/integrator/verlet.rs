@@ -16,7 +16,8 @@
 
 use super::Integrator;
 use super::embedded::{Embedded, LocalError};
-use super::explicit::{Explicit, Stiffest, stiffest};
+use super::explicit::Explicit;
+use super::limit::{Stiffest, stiffest};
 use super::stepper::Stepper;
 use crate::error::StepError;
 use crate::force::Force;
