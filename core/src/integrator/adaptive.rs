@@ -249,8 +249,7 @@ impl<I: Embedded<T>, T: Real> Integrator<T> for Adaptive<I, T> {
         if !(longest > T::ZERO) {
             return Err(StepError::Accuracy);
         }
-        let limited = longest < self.dt;
-        if limited {
+        if longest < self.dt {
             self.dt = longest;
         }
         let cut = self.end > T::ZERO && self.end < self.dt;
@@ -260,7 +259,7 @@ impl<I: Embedded<T>, T: Real> Integrator<T> for Adaptive<I, T> {
         let (moving, placed) = sizes(&parts);
         let tiny = T::from_count(4096);
         loop {
-            // What rounding alone is as an error: u of every position and velocity.
+            // What rounding alone is as an error: u of every position and velocity. It is no number where dt² is 0.
             let unit = T::HALF * T::UNIT_ROUNDOFF * T::UNIT_ROUNDOFF;
             let rounding = unit * (moving + placed / (dt * dt));
             if !(rounding <= self.accuracy) {
@@ -283,8 +282,6 @@ impl<I: Embedded<T>, T: Real> Integrator<T> for Adaptive<I, T> {
                 Ok((_, error)) => Some(error),
                 // What is out of range at this step need not be at a shorter one.
                 Err(StepError::NotFinite(_)) => None,
-                // Shortened until its square is 0, here or by a limit.
-                Err(StepError::TimeStep) if rejections > 0 || limited => return Err(StepError::Accuracy),
                 Err(error) => return Err(error),
             };
             dt = dt * error.map_or(T::from_f64(0.1), |error| Self::shortened(self.ratio(error)));
