@@ -77,17 +77,42 @@ impl<M: Memory> MassSpring<M> {
     /// Sets ḃ of a pin, m/s: how fast it moves when the next motion begins. Without this a motion begins as the last one ended,
     /// and from rest where the last step was told none. It moves no pin.
     ///
+    /// ```
+    /// use hooke::{Adaptive, Motion, Scene, Verlet};
+    /// let mut scene = Scene::<f64, 2, 1>::new();
+    /// let (a, b) = (scene.particle([0.0; 3], 1.0)?, scene.particle([1.0, 0.0, 0.0], 1.0)?);
+    /// scene.spring(a, b, 100.0)?;
+    /// scene.pin(a)?;
+    /// let mut method = Adaptive::new(Verlet::new(0.01), 0.01, 1e-6);
+    /// // Off at once with 2 m/s, for half a second.
+    /// let (velocity, mut time) = ([2.0, 0.0, 0.0], 0.0);
+    /// scene.set_pin_velocity(a, velocity)?;
+    /// let motion = Motion { particle: a, position: [1.0, 0.0, 0.0], velocity };
+    /// while time < 0.5 {
+    ///     method.end_after(0.5 - time);
+    ///     scene.step_moving(&mut method, &[motion])?;
+    ///     time += method.made().dt;
+    /// }
+    /// assert_eq!(scene.positions()[a], motion.position);
+    /// // x = 1 + 2t − (v/ω) sin ωt, ω = 10/s, seen from the pin.
+    /// let [x, ..] = scene.positions()[b];
+    /// assert!((x - (2.0 - 0.2 * 5.0f64.sin())).abs() < 1e-3);
+    /// # Ok::<(), Box<dyn std::error::Error>>(())
+    /// ```
+    ///
     /// # Errors
     /// [`EditError::NoParticle`], [`EditError::NotPinned`], [`EditError::NotFinite`].
     pub fn set_pin_velocity(&mut self, i: usize, velocity: Vec3<M::Real>) -> Result<(), EditError> {
-        let rate = self.network.velocity.get_mut(i).ok_or(EditError::NoParticle(i))?;
-        if !self.network.slot.get(i).is_some_and(|slot| slot & MARK != 0) {
+        let slot = self.network.slot.get(i).ok_or(EditError::NoParticle(i))?;
+        if slot & MARK == 0 {
             return Err(EditError::NotPinned(i));
         }
         if !vec3::is_finite(velocity) {
             return Err(EditError::NotFinite(i));
         }
-        *rate = velocity;
+        if let Some(rate) = self.network.velocity.get_mut(i) {
+            *rate = velocity;
+        }
         Ok(())
     }
 }
