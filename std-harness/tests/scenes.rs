@@ -237,23 +237,24 @@ fn chosen_steps_follow_paths_and_their_corners_so_that_less_j_is_closer() {
          [[moving]]\nparticles = [0]\noscillate = { amplitude = [0.05, 0, 0.1], frequency = 3 }\n\
          [[moving]]\nparticles = [7]\nthrough = [[0, 0, 0, 0], [0.125, 0.1, 0, 0], [0.25, 0.1, 0.2, 0.1]]\n",
     );
-    // Corners lie between steps.
-    let truth = end(&folder, "--integrator verlet --seconds 0.3125 --dt 0.00000762939453125");
+    let truth = end(&folder, "--integrator verlet --seconds 0.3125 --dt 0.0000152587890625");
     for integrator in ["ros2", "ros3", "verlet", "auto"] {
-        let off = ["1e-5", "1e-7", "1e-9"].map(|accuracy| {
+        let off = ["1e-4", "1e-8"].map(|accuracy| {
             let to = format!("--integrator {integrator} --accuracy {accuracy} --seconds 0.3125");
             let ends = end(&folder, &to);
             // Pins are where their paths end, to the last bit that a decimal has.
             assert_eq!((ends[0], ends[7]), (truth[0], truth[7]));
-            let far = |(a, b): (&[f64; 3], &[f64; 3])| (0..3).map(|c| (a[c] - b[c]).powi(2)).sum::<f64>().sqrt();
+            let far =
+                |(a, b): (&[f64; 3], &[f64; 3])| (0..3).map(|c| (a[c] - b[c]).powi(2)).sum::<f64>().sqrt();
             ends.iter().zip(&truth).map(far).fold(0.0, f64::max)
         });
         println!("{integrator}: {off:?} m");
-        assert!(off[2] < off[0] / 20.0 && off[2] < 1e-4, "{integrator}: {off:?}");
+        // A ten-thousandth of J: a hundredth of the error, by half.
+        assert!(off[1] < off[0] / 50.0, "{integrator}: {off:?}");
     }
     // Shown within steps: every frame, and the same end.
-    let frames = end(&folder, "--integrator auto --accuracy 1e-7 --seconds 0.3125 --fps 64 --out out");
-    assert_eq!(frames, end(&folder, "--integrator auto --accuracy 1e-7 --seconds 0.3125"));
+    let frames = end(&folder, "--integrator auto --accuracy 1e-6 --seconds 0.3125 --fps 64 --out out");
+    assert_eq!(frames, end(&folder, "--integrator auto --accuracy 1e-6 --seconds 0.3125"));
     assert!(folder.path("out/frame_00020.vtp").exists());
 }
 

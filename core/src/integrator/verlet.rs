@@ -12,6 +12,10 @@
 //! holds. Use it where the wanted error asks for steps below the limit anyway: undamped, not stiff scenes, small errors. Not
 //! on stiff or strongly damped ones. Cost: a pass over the springs (one root each) per force; no memory of its own.
 //!
+//! Nothing is kept from one step to the next: in between a caller may change positions, springs, masses, pins, the values of forces
+//! or the method, and nothing would tell. So a step by itself is two forces and a look at the limit, 352,000 instructions on a
+//! cloth of 16×16, where a substep is one force, 132,000: if steps are short only for the limit, ask for long ones in substeps.
+//!
 //! Source: Hairer, Lubich & Wanner 2003, *Geometric numerical integration illustrated by the Störmer–Verlet method*.
 
 use super::Integrator;
