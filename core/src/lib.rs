@@ -55,7 +55,7 @@ pub use law::{Cables, Hookean, Law, Mixed};
 pub use memory::{Fixed, List, Memory, SliceList, Slices};
 pub use network::State;
 pub use parts::Parts;
-pub use pins::Motion;
+pub use pins::{Course, Motion};
 pub use real::{Number, Real};
 pub use report::{Ending, IslandReport, Report, Solve};
 pub use scene::{Growable, MassSpring, Scene, SceneIn};

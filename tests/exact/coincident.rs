@@ -122,7 +122,10 @@ fn a_clamped_spring_pushes_its_ends_apart_however_short_it_is() {
             let v = scene.velocities()[i].map(T::to_f64);
             let exact = 0.18 + (h * 100.0 * (1.0 - l) - h * h * 100.0 * 0.18) / (1.0 + h * h * 100.0);
             let off = 0.6 * v[0] + 0.8 * v[1] - exact;
-            assert!(off.abs() < allowed::SHORT_SPRING_SPEED * T::UNIT_ROUNDOFF.to_f64(), "l = {l:e}: off by {off:e}");
+            assert!(
+                off.abs() < allowed::SHORT_SPRING_SPEED * T::UNIT_ROUNDOFF.to_f64(),
+                "l = {l:e}: off by {off:e}"
+            );
         }
     }
     for wide in [false, true] {

@@ -153,7 +153,7 @@ fn in_single_precision_a_scene_that_leaves_the_range_is_never_an_error_of_dt_how
 }
 
 #[test]
-fn a_motion_is_refused_and_so_are_an_accuracy_a_step_or_memory_that_are_not_valid() {
+fn a_motion_without_an_end_is_refused_and_so_are_an_accuracy_a_step_or_memory_that_are_not_valid() {
     let data = generate::rope(4);
     let refused = |dt: f64, accuracy: f64, memory: Memory, motion: &[Motion<f64>]| {
         let mut scene = build::scene::<f64>(&data);
@@ -229,4 +229,21 @@ fn where_nothing_ever_has_an_error_steps_stay_in_range_however_many_there_are() 
         assert!(made.is_ok(), "step {step} of {:e} s: {made:?}", method.dt());
     }
     assert!(method.dt() > 1e18);
+    // So do attempts.
+    let mut method = Adaptive::new(Verlet::new(0.01), 0.01, 1e-6);
+    for attempt in 0..200 {
+        let made = method.probe(&mut scene, &[]);
+        assert!(made.is_ok(), "attempt {attempt} of {:e} s: {made:?}", method.dt());
+    }
+    assert!(method.dt() > 1e17);
+}
+
+/// A rate of damping so high that the longest stable step has no square: the caller's dt was valid.
+#[test]
+fn a_limit_below_the_numbers_is_an_accuracy_that_cannot_be_had_and_not_an_error_of_dt() {
+    let mut scene = build::scene::<f32>(&generate::rope(3));
+    let before = build::bits(&scene);
+    let method = Verlet::new(1.0).with(hooke::Drag(1e30));
+    assert_eq!(scene.step(&mut Adaptive::new(method, 0.01, 1e-6)), Err(StepError::Accuracy));
+    assert_eq!(build::bits(&scene), before);
 }

@@ -3,6 +3,7 @@
 // Indices are those of the formulas.
 #![allow(clippy::needless_range_loop)]
 
+mod clamped;
 mod closed_forms;
 mod coefficients;
 mod conservation;
@@ -10,5 +11,6 @@ mod dense_step;
 mod error_control;
 mod every_method;
 mod minimization;
+mod moving_pins;
 mod orders;
 mod step_limits;

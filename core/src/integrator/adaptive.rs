@@ -22,7 +22,7 @@ use super::embedded::{Embedded, LocalError};
 use crate::error::StepError;
 use crate::memory::Memory;
 use crate::parts::Parts;
-use crate::pins::Motion;
+use crate::pins::{Course, Motion};
 use crate::real::Real;
 use crate::report::{IslandReport, Report};
 use crate::scene::MassSpring;
@@ -32,7 +32,12 @@ use crate::vec3;
 const REJECTIONS: u32 = 24;
 
 /// A method with its steps' lengths chosen. A call of [`crate::MassSpring::step`] makes one step; [`Adaptive::made`] tells how
-/// long it was. Pins rest: a motion is refused, for it is given over a step whose length is known beforehand.
+/// long it was.
+///
+/// A motion is given over the time of [`Adaptive::end_after`], however many steps that takes: give it again, with the time that is
+/// left, until it is over. Each step leaves the pin on the cubic of both ends, so all methods keep their order. Without an end a
+/// motion is refused. How far the cubic is from the way that the caller has in mind is not judged; where that way has a corner,
+/// let a motion end there and [`crate::MassSpring::set_pin_velocity`] begin the next.
 ///
 /// ```
 /// use hooke::{Adaptive, Rosenbrock2, Scene};
@@ -180,7 +185,9 @@ impl<I: Embedded<T>, T: Real> Adaptive<I, T> {
     pub fn probe<M: Memory<Real = T>>(
         &mut self,
         scene: &mut MassSpring<M>,
+        motion: &[Motion<T>],
     ) -> Result<(Report<T>, bool), StepError> {
+        let course = self.course(motion)?;
         let mut parts = scene.parts();
         let longest = self.method.longest(&mut parts);
         if !(longest > T::ZERO) {
@@ -189,8 +196,13 @@ impl<I: Embedded<T>, T: Real> Adaptive<I, T> {
         if longest < self.dt {
             self.dt = longest;
         }
+        // Beyond its end a motion is not known.
+        let ends = !motion.is_empty() && course.over < self.dt;
+        if ends {
+            self.dt = course.over;
+        }
         let absolute = self.accuracy / T::from_count(4096);
-        let attempt = self.method.attempt(&mut parts, self.dt, absolute, &mut |_| {});
+        let attempt = self.method.attempt(&mut parts, self.dt, course, absolute, &mut |_| {});
         if let Err(StepError::NotFinite(_)) = attempt {
             self.dt = self.dt * T::from_f64(0.05);
         }
@@ -207,7 +219,15 @@ impl<I: Embedded<T>, T: Real> Adaptive<I, T> {
         if cut {
             self.dt = longest;
         }
-        Ok((report, (factor > T::HALF && factor < T::TWO) || (cut && factor > T::ONE)))
+        Ok((report, (factor > T::HALF && factor < T::TWO) || ((cut || ends) && factor > T::ONE)))
+    }
+
+    /// Motions over the time until the end, which they must have.
+    fn course<'m>(&self, motion: &'m [Motion<T>]) -> Result<Course<'m, T>, StepError> {
+        match motion.first() {
+            Some(m) if !(self.end > T::ZERO && self.end.is_finite()) => Err(StepError::Motion(m.particle)),
+            _ => Ok(Course { motion, over: self.end }),
+        }
     }
 }
 
@@ -218,9 +238,7 @@ impl<I: Embedded<T>, T: Real> Integrator<T> for Adaptive<I, T> {
         motion: &[Motion<T>],
         watch: &mut impl FnMut(&IslandReport<T>),
     ) -> Result<Report<T>, StepError> {
-        if let Some(m) = motion.first() {
-            return Err(StepError::Motion(m.particle));
-        }
+        let course = self.course(motion)?;
         if !(self.accuracy > T::ZERO && self.accuracy.is_finite()) {
             return Err(StepError::Tolerance);
         }
@@ -231,8 +249,7 @@ impl<I: Embedded<T>, T: Real> Integrator<T> for Adaptive<I, T> {
         if !(longest > T::ZERO) {
             return Err(StepError::Accuracy);
         }
-        let limited = longest < self.dt;
-        if limited {
+        if longest < self.dt {
             self.dt = longest;
         }
         let cut = self.end > T::ZERO && self.end < self.dt;
@@ -242,16 +259,16 @@ impl<I: Embedded<T>, T: Real> Integrator<T> for Adaptive<I, T> {
         let (moving, placed) = sizes(&parts);
         let tiny = T::from_count(4096);
         loop {
-            // What rounding alone is as an error: u of every position and velocity.
+            // What rounding alone is as an error: u of every position and velocity. It is no number where dt² is 0.
             let unit = T::HALF * T::UNIT_ROUNDOFF * T::UNIT_ROUNDOFF;
             let rounding = unit * (moving + placed / (dt * dt));
             if !(rounding <= self.accuracy) {
                 self.attained = rounding;
                 return Err(StepError::Accuracy);
             }
-            let error = match self.method.attempt(&mut parts, dt, self.accuracy / tiny, watch) {
+            let error = match self.method.attempt(&mut parts, dt, course, self.accuracy / tiny, watch) {
                 Ok((report, error)) if error.energy <= self.accuracy => {
-                    self.method.accept(parts)?;
+                    self.method.accept(parts, course)?;
                     let ratio = self.ratio(error);
                     let next = dt * self.factor(ratio);
                     // Where nothing has an error steps grow, but not beyond what has a square.
@@ -265,8 +282,6 @@ impl<I: Embedded<T>, T: Real> Integrator<T> for Adaptive<I, T> {
                 Ok((_, error)) => Some(error),
                 // What is out of range at this step need not be at a shorter one.
                 Err(StepError::NotFinite(_)) => None,
-                // Shortened until its square is 0, here or by a limit.
-                Err(StepError::TimeStep) if rejections > 0 || limited => return Err(StepError::Accuracy),
                 Err(error) => return Err(error),
             };
             dt = dt * error.map_or(T::from_f64(0.1), |error| Self::shortened(self.ratio(error)));

@@ -9,6 +9,7 @@ use crate::force::Force;
 use crate::lanes::Lanes;
 use crate::memory::Memory;
 use crate::parts::Parts;
+use crate::pins::Course;
 use crate::real::Real;
 use crate::report::{IslandReport, Report};
 use crate::system::System;
@@ -36,7 +37,8 @@ pub trait Embedded<T: Real>: Integrator<T> {
         T::ONE / T::ZERO
     }
 
-    /// Makes a step of `dt`, with solves exact to `absolute` joules, beside the scene; pins rest.
+    /// Makes a step of `dt`, the beginning of the pins' `course` or all of it, with solves exact to `absolute` joules, beside
+    /// the scene.
     ///
     /// # Errors
     /// [`StepError`], and then nothing has changed.
@@ -44,15 +46,20 @@ pub trait Embedded<T: Real>: Integrator<T> {
         &mut self,
         parts: &mut Parts<'_, M>,
         dt: T,
+        course: Course<'_, T>,
         absolute: T,
         watch: &mut impl FnMut(&IslandReport<T>),
     ) -> Result<(Report<T>, LocalError<T>), StepError>;
 
-    /// Takes the step that was attempted last. The scene must be as it was then.
+    /// Takes the step that was attempted last. The scene must be as it was then, and the course the same.
     ///
     /// # Errors
-    /// [`StepError::NotFinite`], and then nothing has changed.
-    fn accept<M: Memory<Real = T>>(&mut self, parts: Parts<'_, M>) -> Result<(), StepError>;
+    /// [`StepError::NotFinite`], [`StepError::Motion`], and then nothing has changed.
+    fn accept<M: Memory<Real = T>>(
+        &mut self,
+        parts: Parts<'_, M>,
+        course: Course<'_, T>,
+    ) -> Result<(), StepError>;
 }
 
 /// ½‖δq̇‖²_M + ½ dᵀ(share·M − sK̃)d with A = M + θhD − sK̃. Drag in A counts as mass, damping along springs as stiffness.

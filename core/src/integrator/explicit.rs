@@ -1,20 +1,12 @@
-//! What explicit methods share: forces at any state, a bound on how stiff a scene is, and the step that follows from it.
-//!
-//! No eigenvalue of M⁻¹(−K) exceeds λ = max_i (1/mᵢ) Σ_{e∋i} c_e kₑ, with c_e = 1 where the other end is pinned or a point,
-//! else 2: H ⪯ kI for every spring, however long it is. So the limits need no state and hold for all of a run, until k, m or
-//! a pin changes. They are those of the frozen matrix, as in every linear theory: no guarantee for a nonlinear scene, but
-//! where they are broken a scene leaves. Likewise the rates of damping: d = max_i (dᵢ + Σ c_e cₑ)/mᵢ.
-//!
-//! Source: Gershgorin's circles on M⁻¹K; Belytschko, Liu & Moran, *Nonlinear Finite Elements*, §6.2 (critical time steps).
+//! The way of explicit methods through a step: a state beside the scene's own, and forces at it.
 
 use crate::error::StepError;
 use crate::force::{Force, Rows};
-use crate::hessian::Scaling;
 use crate::islands::{Island, Islands};
 use crate::memory::{Memory, part};
 use crate::network::{Network, State};
 use crate::parts::Parts;
-use crate::pins::Motion;
+use crate::pins::Course;
 use crate::real::{Real, larger};
 use crate::report::Report;
 use crate::selection::MARK;
@@ -22,75 +14,9 @@ use crate::vec3::{self, Vec3};
 
 use super::stage;
 
-/// How fast a scene's parts can answer: what limits the step of explicit methods.
-#[derive(Debug, Clone, Copy, PartialEq)]
-#[cfg_attr(feature = "defmt", derive(defmt::Format))]
-pub struct Stiffest<T> {
-    /// λ, 1/s²: no ω² is larger
-    pub square: T,
-    /// d, 1/s: no damping is faster
-    pub damping: T,
-    /// The particle where h²λ + 2hd is largest for the step that was asked about
-    pub particle: usize,
-}
-
-/// λ and d of a scene, which needs its islands renewed; `forces` get a scaling of their own. O(particles + springs).
-pub(crate) fn stiffest<M: Memory<Real = T>, T: Real, F: Force<T>>(
-    parts: &mut Parts<'_, M>,
-    forces: &mut F,
-    h: T,
-) -> Stiffest<T> {
-    let Parts { network, islands, work } = parts;
-    let state = network.state();
-    // k in μ, damping in the inertia, both scratch between steps.
-    for (mu, d) in work.mu.iter_mut().zip(work.inertia.iter_mut()) {
-        (*mu, *d) = (T::ZERO, T::ZERO);
-    }
-    let free = islands.free;
-    each_spring(islands, |row, other, j| {
-        let (k, c) = (state.spring(j).stiffness, if F::DAMPS { forces.damping(j) } else { T::ZERO });
-        let both = if other < free { T::TWO } else { T::ONE };
-        for end in [row, other] {
-            if let (Some(mu), Some(d)) = (work.mu.get_mut(end), work.inertia.get_mut(end)) {
-                *mu += both * k;
-                *d += both * c;
-            }
-        }
-    });
-    let rows = islands.all_rows(&state);
-    if F::ANCHORS {
-        forces.linearize(&rows, Scaling::unit());
-        forces.hessians(&rows, &mut |row, h| {
-            if let Some(mu) = work.mu.get_mut(row) {
-                // The largest eigenvalue, which is k however long a spring is; −∂f of a force that repels counts by its size.
-                let along = h.alpha + vec3::dot(h.w, h.w);
-                *mu += if along > T::ZERO { along } else { -along };
-            }
-        });
-    }
-    let mut most = Stiffest { square: T::ZERO, damping: T::ZERO, particle: 0 };
-    let mut worst = T::ZERO;
-    for ((i, k), c) in rows.particles().zip(work.mu.iter()).zip(work.inertia.iter()) {
-        let m = state.mass.get(i).copied().unwrap_or(T::ONE);
-        let drag = if F::DRAGS { forces.drag(i, m) } else { T::ZERO };
-        let (square, damping) = (*k / m, (*c + drag) / m);
-        let own = h * (h * square + T::TWO * damping);
-        if !(own <= worst) {
-            (worst, most.particle) = (own, i);
-        }
-        if !(square <= most.square) {
-            most.square = square;
-        }
-        if !(damping <= most.damping) {
-            most.damping = damping;
-        }
-    }
-    most
-}
-
 /// Visits the springs of all islands: (row, other end, spring), both ends as slots.
 #[inline(always)]
-fn each_spring<M: Memory>(islands: &Islands<M>, mut visit: impl FnMut(usize, usize, usize)) {
+pub(crate) fn each_spring<M: Memory>(islands: &Islands<M>, mut visit: impl FnMut(usize, usize, usize)) {
     for words in islands.islands() {
         let island = Island::unpack(*words);
         let own = part(&islands.own, island.slots());
@@ -192,14 +118,14 @@ impl<'a, M: Memory<Real = T>, T: Real> Explicit<'a, M> {
     }
 
     /// Moving pins where and as fast as they are after the part `s` of a step of `dt`.
-    pub(crate) fn pins(&mut self, motion: &[Motion<T>], s: T, dt: T) {
-        for m in motion {
+    pub(crate) fn pins(&mut self, course: Course<'_, T>, s: T, dt: T) {
+        for m in course.motion {
             let (Some(b), Some(rate)) =
                 (self.network.position.get(m.particle), self.network.velocity.get(m.particle))
             else {
                 continue;
             };
-            let [q, v] = m.at(s, dt, *b, *rate);
+            let [q, v] = course.at(m, s, dt, *b, *rate);
             if let (Some(to), Some(to_v)) =
                 (self.position.get_mut(m.particle), self.velocity.get_mut(m.particle))
             {
@@ -300,9 +226,20 @@ impl<'a, M: Memory<Real = T>, T: Real> Explicit<'a, M> {
         energy
     }
 
-    /// Takes the state: what is not finite is refused, and then the scene is as it was.
-    pub(crate) fn commit(self, motion: &[Motion<T>]) -> Result<(), StepError> {
+    /// Takes the state, pins where a step of `dt` leaves them: what is not finite is refused, and then the scene is as it was.
+    pub(crate) fn commit(self, course: Course<'_, T>, dt: T) -> Result<(), StepError> {
         let Self { network, islands, position, velocity, .. } = self;
+        for m in course.motion {
+            let i = m.particle;
+            if let (Some(b), Some(rate), Some(q), Some(v)) =
+                (network.position.get(i), network.velocity.get(i), position.get_mut(i), velocity.get_mut(i))
+            {
+                [*q, *v] = course.end(m, dt, *b, *rate);
+                if !(vec3::is_finite(*q) && vec3::is_finite(*v)) {
+                    return Err(StepError::Motion(i));
+                }
+            }
+        }
         for i in islands.particle.iter().take(islands.free) {
             let i = *i as usize;
             let finite = |list: &[Vec3<T>]| list.get(i).is_some_and(|x| vec3::is_finite(*x));
@@ -323,11 +260,11 @@ impl<'a, M: Memory<Real = T>, T: Real> Explicit<'a, M> {
                 *v = [T::ZERO; 3];
             }
         }
-        for m in motion {
-            if let (Some(q), Some(v)) =
-                (network.position.get_mut(m.particle), network.velocity.get_mut(m.particle))
+        for i in course.motion.iter().map(|m| m.particle) {
+            if let (Some(q), Some(v), Some(end), Some(rate)) =
+                (network.position.get_mut(i), network.velocity.get_mut(i), position.get(i), velocity.get(i))
             {
-                (*q, *v) = (m.position, m.velocity);
+                (*q, *v) = (*end, *rate);
             }
         }
         Ok(())

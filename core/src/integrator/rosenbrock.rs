@@ -10,7 +10,7 @@
 //!
 //! So only u̇ is stored, and the first stage is the lecture's step of h′. All methods here are W-methods: they keep their
 //! order with any symmetric K̃, so also where springs are clamped, and with the springs' damping in D alone. Pins: b and ḃ
-//! at the stage's own time, by the cubic that has the motion's b and ḃ at both ends of the step; ∂f/∂t = K_fp ḃ.
+//! at the stage's own time, by the cubic that has the motion's b and ḃ at both ends of its time; ∂f/∂t = K_fp ḃ.
 //!
 //! The difference to a second answer of lower order, δ = Σ eᵢuᵢ, costs no solve: the estimate of the local error.
 //!
@@ -20,7 +20,7 @@ use core::marker::PhantomData;
 
 use super::embedded::{Embedded, LocalError, energy};
 use super::stage::{self, Stages};
-use super::stepper::{Stepper, commit};
+use super::stepper::{Stepper, commit_at};
 use super::{Integrator, merge};
 use crate::assembly::{Assembled, Same, assemble, prepare};
 use crate::error::StepError;
@@ -28,7 +28,7 @@ use crate::force::Force;
 use crate::hessian::Scaling;
 use crate::memory::Memory;
 use crate::parts::{IslandParts, Parts};
-use crate::pins::Motion;
+use crate::pins::{Course, Motion};
 use crate::real::{Real, larger};
 use crate::report::{IslandReport, Report};
 use crate::solver::{Problem, Solver};
@@ -114,13 +114,13 @@ impl<K: Tableau, W: AsMut<[Vec3<T>]>, T: Real, F: Force<T>, S: Solver<T>, Z>
     fn stages<M: Memory<Real = T>>(
         &mut self,
         parts: &mut Parts<'_, M>,
-        motion: &[Motion<T>],
+        course: Course<'_, T>,
         watch: &mut impl FnMut(&IslandReport<T>),
         judge: bool,
     ) -> Result<(Report<T>, LocalError<T>), StepError> {
         let h = self.inner();
         self.check(parts.network)?;
-        self.pins(parts, motion, |_, rate, _| rate)?;
+        self.pins(parts, course.motion, |_, rate, _| rate)?;
         let scaling = Scaling { stiffness: h * h, damping: h };
         let Parts { network, islands, work } = parts;
         let state = network.state();
@@ -142,7 +142,7 @@ impl<K: Tableau, W: AsMut<[Vec3<T>]>, T: Real, F: Force<T>, S: Solver<T>, Z>
                 if i > 0 {
                     stages.keep(i - 1, &island);
                     stages.place(stage, &island, h);
-                    stages.place_pins(stage, motion, &state, self.dt);
+                    stages.place_pins(Some(stage), course, &state, self.dt);
                     stage::right_side::<T, F, M::Law>(&mut island, &stages, stage, &self.forces, h, points);
                 }
                 let IslandParts { matrix, vectors, block, .. } = &mut island;
@@ -205,21 +205,25 @@ impl<K: Tableau, W: AsMut<[Vec3<T>]>, T: Real, F: Force<T>, S: Solver<T>, Z>
     fn commit<M: Memory<Real = T>>(
         &mut self,
         parts: Parts<'_, M>,
-        motion: &[Motion<T>],
+        course: Course<'_, T>,
     ) -> Result<(), StepError> {
         let h = self.inner();
         let Parts { network, islands, work } = parts;
         let particles = network.mass.len();
         let numbers = Staged::<K, W>::needs(particles);
         let stages = Stages::cut(self.rule.memory.as_mut(), particles, K::STAGES.len());
-        let stages = stages.ok_or(StepError::Workspace { numbers, words: 0 })?;
+        let mut stages = stages.ok_or(StepError::Workspace { numbers, words: 0 })?;
+        if let Some(i) = stages.place_pins(None, course, &network.state(), self.dt) {
+            return Err(StepError::Motion(i));
+        }
         let share = |of: &[f64]| T::from_f64(of.get(K::STAGES.len() - 1).copied().unwrap_or(0.0));
         let (of_position, of_velocity) = (share(K::POSITION.stages), share(K::VELOCITY));
-        commit(network, islands, &work.x, motion, |slot, [q, v], last| {
+        let next = |slot: usize, [q, v]: [Vec3<T>; 2], last: Vec3<T>| {
             let rate = vec3::add_scaled(combined(&K::POSITION, v, &stages, slot), of_position, last);
             let v = vec3::add_scaled(stages.sum(K::VELOCITY, v, slot), of_velocity, last);
             [vec3::add_scaled(q, h, rate), v]
-        })
+        };
+        commit_at(network, islands, &work.x, course.motion, next, |m| stages.placed(m.particle))
     }
 }
 
@@ -232,8 +236,9 @@ impl<K: Tableau, W: AsMut<[Vec3<T>]>, T: Real, F: Force<T>, S: Solver<T>, Z> Int
         motion: &[Motion<T>],
         watch: &mut impl FnMut(&IslandReport<T>),
     ) -> Result<Report<T>, StepError> {
-        let (report, _) = self.stages(&mut parts, motion, watch, false)?;
-        self.commit(parts, motion)?;
+        let course = Course { motion, over: self.dt };
+        let (report, _) = self.stages(&mut parts, course, watch, false)?;
+        self.commit(parts, course)?;
         Ok(report)
     }
 }
@@ -247,16 +252,21 @@ impl<K: Tableau, W: AsMut<[Vec3<T>]>, T: Real, F: Force<T>, S: Solver<T>, Z> Emb
         &mut self,
         parts: &mut Parts<'_, M>,
         dt: T,
+        course: Course<'_, T>,
         absolute: T,
         watch: &mut impl FnMut(&IslandReport<T>),
     ) -> Result<(Report<T>, LocalError<T>), StepError> {
         self.dt = dt;
         // Only J rules: a relative tolerance would let a solve end sooner.
         (self.stop.relative, self.stop.absolute) = (T::ZERO, absolute);
-        self.stages(parts, &[], watch, true)
+        self.stages(parts, course, watch, true)
     }
 
-    fn accept<M: Memory<Real = T>>(&mut self, parts: Parts<'_, M>) -> Result<(), StepError> {
-        self.commit(parts, &[])
+    fn accept<M: Memory<Real = T>>(
+        &mut self,
+        parts: Parts<'_, M>,
+        course: Course<'_, T>,
+    ) -> Result<(), StepError> {
+        self.commit(parts, course)
     }
 }

@@ -6,7 +6,7 @@ use crate::hessian::Hessian;
 use crate::law::Law;
 use crate::network::State;
 use crate::parts::IslandParts;
-use crate::pins::Motion;
+use crate::pins::Course;
 use crate::real::Real;
 use crate::selection::Ends;
 use crate::spring::Stretched;
@@ -72,20 +72,40 @@ impl<'a, T: Real> Stages<'a, T> {
         }
     }
 
-    /// b and ḃ of moving pins at the stage's time.
-    pub(crate) fn place_pins(&mut self, stage: &Stage, motion: &[Motion<T>], state: &State<'_, T>, dt: T) {
-        for m in motion {
+    /// b and ḃ of moving pins at the stage's time, or without one at the end of the step; answers the first that is not finite.
+    pub(crate) fn place_pins(
+        &mut self,
+        stage: Option<&Stage>,
+        course: Course<'_, T>,
+        state: &State<'_, T>,
+        dt: T,
+    ) -> Option<usize> {
+        let mut infinite = None;
+        for m in course.motion {
             let (Some(b), Some(rate)) = (state.position.get(m.particle), state.velocity.get(m.particle))
             else {
                 continue;
             };
-            let [q, v] = m.at(T::from_f64(stage.time), dt, *b, *rate);
+            let [q, v] = match stage {
+                Some(stage) => course.at(m, T::from_f64(stage.time), dt, *b, *rate),
+                None => course.end(m, dt, *b, *rate),
+            };
+            if infinite.is_none() && !(vec3::is_finite(q) && vec3::is_finite(v)) {
+                infinite = Some(m.particle);
+            }
             if let (Some(to), Some(to_v)) =
                 (self.position.get_mut(m.particle), self.velocity.get_mut(m.particle))
             {
                 (*to, *to_v) = (q, v);
             }
         }
+        infinite
+    }
+
+    /// b and ḃ of a pin where they were placed last.
+    pub(crate) fn placed(&self, i: usize) -> [Vec3<T>; 2] {
+        let at = |list: &[Vec3<T>]| list.get(i).copied().unwrap_or([T::ZERO; 3]);
+        [at(self.position), at(self.velocity)]
     }
 
     /// The scene at this stage.

@@ -136,13 +136,26 @@ impl<R, T: Real, F: Force<T>, S, Z> Stepper<R, T, F, S, Z> {
 
 /// (q⁺, q̇⁺) of every free particle as `next` makes them from its slot, q, q̇ and x, and b⁺, ḃ⁺ on pins. Nothing is written
 /// unless all of it is finite.
-#[inline(never)]
+#[inline(always)]
 pub(crate) fn commit<M: Memory<Real = T>, T: Real>(
     network: &mut Network<M>,
     islands: &Islands<M>,
     x: &[Vec3<T>],
     motion: &[Motion<T>],
     next: impl Fn(usize, [Vec3<T>; 2], Vec3<T>) -> [Vec3<T>; 2],
+) -> Result<(), StepError> {
+    commit_at(network, islands, x, motion, next, |m| [m.position, m.velocity])
+}
+
+/// The same where pins are not at the ends of their motions but as `end` says, finite.
+#[inline(never)]
+pub(crate) fn commit_at<M: Memory<Real = T>, T: Real>(
+    network: &mut Network<M>,
+    islands: &Islands<M>,
+    x: &[Vec3<T>],
+    motion: &[Motion<T>],
+    next: impl Fn(usize, [Vec3<T>; 2], Vec3<T>) -> [Vec3<T>; 2],
+    end: impl Fn(&Motion<T>) -> [Vec3<T>; 2],
 ) -> Result<(), StepError> {
     let Network { position, velocity, .. } = network;
     let (particle, free) = (&islands.particle, islands.free);
@@ -166,8 +179,7 @@ pub(crate) fn commit<M: Memory<Real = T>, T: Real>(
     }
     for m in motion {
         if let (Some(q), Some(v)) = (position.get_mut(m.particle), velocity.get_mut(m.particle)) {
-            *q = m.position;
-            *v = m.velocity;
+            [*q, *v] = end(m);
         }
     }
     Ok(())

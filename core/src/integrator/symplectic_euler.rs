@@ -3,7 +3,7 @@
 //! q̇⁺ = q̇ + hM⁻¹f(q, q̇),  q⁺ = q + hq̇⁺.
 //!
 //! Order 1. Explicit: no linear system, and a limit, h < (√(d² + 4λ) − d)/λ, that is h²λ + 2hd < 4, with λ and d of
-//! [`super::explicit::Stiffest`], which need no state; a step beyond it is refused ([`StepError::StepLimit`]). Symplectic
+//! [`super::limit::Stiffest`], which need no state; a step beyond it is refused ([`StepError::StepLimit`]). Symplectic
 //! without damping: its positions are those of [`crate::Verlet`] with a velocity that is half a step late, so it is no worse
 //! to look at; [`crate::Verlet`] costs no more with substeps. Keeps linear and angular momentum to rounding on islands that
 //! nothing holds. Use it where one force a step is all there is time for. Cost: one pass over the springs (one root each),
@@ -12,13 +12,14 @@
 //! Source: Hairer, Lubich & Wanner, *Geometric Numerical Integration*, §I.1.2.
 
 use super::Integrator;
-use super::explicit::{Explicit, stiffest};
+use super::explicit::Explicit;
+use super::limit::stiffest;
 use super::stepper::Stepper;
 use crate::error::StepError;
 use crate::force::Force;
 use crate::memory::Memory;
 use crate::parts::Parts;
-use crate::pins::Motion;
+use crate::pins::{Course, Motion};
 use crate::real::Real;
 use crate::report::{IslandReport, Report};
 use crate::scene::MassSpring;
@@ -63,12 +64,13 @@ impl<T: Real, F: Force<T>, S, Z> Integrator<T> for Stepper<KickDrift, T, F, S, Z
             return Err(StepError::StepLimit(most.particle));
         }
         let mut scene = Explicit::new(parts);
-        scene.pins(motion, T::ZERO, h);
+        let course = Course { motion, over: h };
+        scene.pins(course, T::ZERO, h);
         scene.forces(&self.forces, most.damping > T::ZERO);
         scene.kick(h);
         scene.drift(h);
         let report = scene.report();
-        scene.commit(motion)?;
+        scene.commit(course, h)?;
         Ok(report)
     }
 }

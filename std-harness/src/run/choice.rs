@@ -14,7 +14,7 @@
 //! [`super::auto::WEIGHTS`] for the solvers, and two numbers here. [`PASS`] is from one run of Verlet on a cloth of 16×16, 20.6 µs
 //! for two forces and a limit; [`STAGE`] is an estimate that nobody has measured. Only ratios matter.
 
-use hooke::{MassSpring, Real, Report, StepError, Verlet};
+use hooke::{MassSpring, Motion, Real, Report, StepError, Verlet};
 
 use super::auto::{self, Case};
 use super::integrator::{AnyIntegrator, Integrator, Probed};
@@ -151,11 +151,21 @@ impl<T: Real> Auto<T> {
         self.members.iter_mut().for_each(|member| member.method.end_after(seconds));
     }
 
+    /// The longest step that one of them is to begin with, s.
+    pub fn next(&self) -> Option<T> {
+        let steps = self.members.iter().filter_map(|member| member.method.next());
+        steps.reduce(|longest, dt| if dt > longest { dt } else { longest })
+    }
+
     /// One step by the one that is chosen.
-    pub fn step(&mut self, scene: &mut MassSpring<Heap<T>>) -> Result<Report<T>, StepError> {
+    pub fn step(
+        &mut self,
+        scene: &mut MassSpring<Heap<T>>,
+        motion: &[Motion<T>],
+    ) -> Result<Report<T>, StepError> {
         if self.left == 0 {
             let before = self.chosen;
-            self.compete(scene);
+            self.compete(scene, motion);
             self.every = if self.chosen == before { (2 * self.every).min(512) } else { 8 };
             self.left = self.every;
         }
@@ -163,7 +173,7 @@ impl<T: Real> Auto<T> {
         let mut tried = vec![self.chosen];
         loop {
             let member = &mut self.members[self.chosen];
-            match member.method.step(scene, &[]) {
+            match member.method.step(scene, motion) {
                 Ok(report) => {
                     member.steps += 1;
                     return Ok(report);
@@ -182,7 +192,7 @@ impl<T: Real> Auto<T> {
     }
 
     /// The cheapest so far goes first; who is seen to be far dearer is not looked at more closely, and sits out for a while.
-    fn compete(&mut self, scene: &mut MassSpring<Heap<T>>) {
+    fn compete(&mut self, scene: &mut MassSpring<Heap<T>>, motion: &[Motion<T>]) {
         let mut order: Vec<usize> = (0..self.members.len()).collect();
         order.sort_by(|a, b| self.members[*a].price.total_cmp(&self.members[*b].price));
         let mut best = f64::INFINITY;
@@ -194,7 +204,7 @@ impl<T: Real> Auto<T> {
             }
             member.price = f64::INFINITY;
             for _ in 0..ATTEMPTS {
-                match member.method.probe(scene) {
+                match member.method.probe(scene, motion) {
                     Some(Ok(Probed { dt, report, settled })) => {
                         member.price = self.prices.of(member.name, &report) / dt.to_f64();
                         if settled || member.price > FAR * best {

@@ -262,7 +262,9 @@ impl<T: Real> AnyIntegrator<T> {
             Self::AdaptiveRos2(method) => scene.step_moving(method, motion),
             Self::AdaptiveRos3(method) => scene.step_moving(method, motion),
             Self::AdaptiveVerlet(method) => scene.step_moving(method, motion),
-            other => whichever!(other, method => scene.step_moving(method, motion), auto => auto.step(scene)),
+            other => {
+                whichever!(other, method => scene.step_moving(method, motion), auto => auto.step(scene, motion))
+            }
         }
     }
 
@@ -293,11 +295,31 @@ impl<T: Real> AnyIntegrator<T> {
         }
     }
 
+    /// Does it see how fast pins move when a step begins?
+    pub fn interpolates(&self) -> bool {
+        matches!(self, Self::Ros2(_) | Self::Ros3(_) | Self::Verlet(_))
+    }
+
+    /// With chosen steps: how long the next one is to be, s.
+    pub fn next(&self) -> Option<T> {
+        match self {
+            Self::AdaptiveRos2(method) => Some(method.dt()),
+            Self::AdaptiveRos3(method) => Some(method.dt()),
+            Self::AdaptiveVerlet(method) => Some(method.dt()),
+            Self::Auto(auto) => auto.next(),
+            _ => None,
+        }
+    }
+
     /// With chosen steps: an attempt that is not taken ([`Adaptive::probe`]), and the step that it asks for, s.
-    pub fn probe(&mut self, scene: &mut MassSpring<Heap<T>>) -> Option<Result<Probed<T>, StepError>> {
+    pub fn probe(
+        &mut self,
+        scene: &mut MassSpring<Heap<T>>,
+        motion: &[Motion<T>],
+    ) -> Option<Result<Probed<T>, StepError>> {
         macro_rules! probed {
             ($method:expr) => {
-                Some($method.probe(scene).map(|(report, settled)| Probed {
+                Some($method.probe(scene, motion).map(|(report, settled)| Probed {
                     dt: $method.dt(),
                     report,
                     settled,

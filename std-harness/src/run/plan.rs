@@ -124,7 +124,7 @@ impl Plan {
         let fps = positive("--fps", args.fps.or(wanted.fps).unwrap_or(60.0))?;
         let first = positive("--dt", args.dt.unwrap_or(model.dt))?;
         let accuracy = args.accuracy.map(|joules| positive("--accuracy", joules)).transpose()?;
-        fits(integrator, accuracy, args, &model)?;
+        fits(integrator, accuracy, args)?;
         let dt = if accuracy.is_some() { 1.0 / fps } else { first };
         let steps = match (args.steps, args.seconds) {
             (Some(steps), _) => steps as f64,
@@ -254,12 +254,7 @@ impl Plan {
 }
 
 /// Refuses options that do not go together.
-fn fits(
-    integrator: Integrator,
-    accuracy: Option<f64>,
-    args: &RunArgs,
-    model: &Model,
-) -> Result<(), InputError> {
+fn fits(integrator: Integrator, accuracy: Option<f64>, args: &RunArgs) -> Result<(), InputError> {
     let refuse = |message: String| Err(InputError::new(message));
     let name = integrator.name();
     if args.sleep.is_some() && integrator != Integrator::Euler {
@@ -282,9 +277,6 @@ fn fits(
     }
     if args.seconds.is_none() {
         return refuse("--accuracy: say how long with --seconds".into());
-    }
-    if model.moving.iter().any(|moving| !moving.particles.is_empty()) {
-        return refuse("--accuracy: not for scenes with moving pins; take a fixed --dt".into());
     }
     Ok(())
 }

@@ -64,6 +64,8 @@ struct Chosen<T> {
     before: (f64, Lists<T>),
     /// The state at its end, while the scene shows a moment within it
     after: Option<Lists<T>>,
+    /// Pins are at a corner of their path, and told their new speed before the next step
+    turns: bool,
     /// What became of the steps
     count: Steps,
 }
@@ -185,6 +187,7 @@ impl<T: Real + Display> Simulation<T> {
             end: plan.seconds,
             before: (0.0, lists(&scene)),
             after: None,
+            turns: true,
             count: Steps::default(),
         });
         Ok(Self {
@@ -214,6 +217,9 @@ impl<T: Real + Display> Simulation<T> {
     /// A step of dt.
     fn fixed(&mut self, step: u64) -> Result<Report<T>, StepError> {
         let time = step as f64 * self.dt;
+        if step == 1 && self.integrator.interpolates() {
+            self.depart(0.0)?;
+        }
         self.motion.clear();
         for moving in &self.moving {
             let (displacement, rate) = moving.path.at(time);
@@ -274,20 +280,66 @@ impl<T: Real + Display> Simulation<T> {
         }
         let mut reports = Vec::new();
         while chosen.time < moment {
-            let left = chosen.end - chosen.time;
+            if std::mem::take(&mut chosen.turns) {
+                self.depart(chosen.time)?;
+            }
+            let (span, stop) = self.ahead(chosen.time, chosen.end);
             // At the end no moment lies within a step.
             if moment < chosen.end {
                 chosen.before = (chosen.time, lists(&self.scene));
             }
-            self.integrator.end_after(T::from_f64(left));
-            reports.push(self.integrator.step(&mut self.scene, &[])?);
+            self.integrator.end_after(T::from_f64(span));
+            reports.push(self.integrator.step(&mut self.scene, &self.motion)?);
             let Some((made, _)) = self.integrator.made() else { break };
             let dt = made.dt.to_f64();
+            let whole = dt >= span * (1.0 - 1e-12);
             // The last step ends at the end, whatever its rounding.
-            chosen.time = if dt >= left * (1.0 - 1e-12) { chosen.end } else { chosen.time + dt };
+            (chosen.time, chosen.turns) = match stop {
+                Some(stop) if whole => (stop, true),
+                _ => (chosen.time + dt, false),
+            };
             chosen.count.add(dt, &made);
         }
         Ok(reports)
+    }
+
+    /// How far the next step may go, s, and when that is, if it is at the end or at a corner of a path; pins' motion is set to
+    /// that time. Where they move a step goes no farther than it is to be long, for a motion is a cubic, and that is as close to
+    /// a path as it is short.
+    fn ahead(&mut self, time: f64, end: f64) -> (f64, Option<f64>) {
+        self.motion.clear();
+        let corners = self.moving.iter().map(|moving| moving.path.corner_after(time));
+        let stop = corners.fold(end, |first, corner| if corner < first { corner } else { first });
+        let left = stop - time;
+        let wanted = self.integrator.next().map_or(left, T::to_f64);
+        // Rather two halves than a long step and a short rest.
+        let (span, reached) = match left {
+            left if self.moving.is_empty() || left <= wanted => (left, Some(stop)),
+            left if left < 2.0 * wanted => (0.5 * left, None),
+            _ => (wanted, None),
+        };
+        let then = reached.unwrap_or(time + span);
+        for moving in &self.moving {
+            let (displacement, rate) = (moving.path.at(then).0, moving.path.arrives(then));
+            for &particle in &moving.particles {
+                let from = self.origin[particle];
+                let position = std::array::from_fn(|c| T::from_f64(from[c] + displacement[c]));
+                self.motion.push(Motion { particle, position, velocity: rate.map(T::from_f64) });
+            }
+        }
+        (span, reached)
+    }
+
+    /// Moving pins, where they are, become as fast as their path goes on.
+    fn depart(&mut self, time: f64) -> Result<(), StepError> {
+        for moving in &self.moving {
+            let rate = moving.path.at(time).1.map(T::from_f64);
+            for &particle in &moving.particles {
+                let told = self.scene.set_pin_velocity(particle, rate);
+                told.map_err(|_| StepError::Motion(particle))?;
+            }
+        }
+        Ok(())
     }
 
     /// Every free particle stands still.
@@ -450,14 +502,14 @@ fn lists<T: Real>(scene: &MassSpring<Heap<T>>) -> Lists<T> {
     [scene.positions().to_vec(), scene.velocities().to_vec()]
 }
 
-/// Puts the free particles where the lists say.
+/// Puts particles where the lists say, as fast as they say.
 fn put<T: Real>(scene: &mut MassSpring<Heap<T>>, lists: &Lists<T>) {
     let [positions, velocities] = lists;
     for (i, (q, v)) in positions.iter().zip(velocities).enumerate() {
-        if !scene.state().is_pinned(i) {
-            scene.set_position(i, *q).expect("a state of this scene");
-            scene.set_velocity(i, *v).expect("a state of this scene");
-        }
+        scene.set_position(i, *q).expect("a state of this scene");
+        let pinned = scene.state().is_pinned(i);
+        let set = if pinned { scene.set_pin_velocity(i, *v) } else { scene.set_velocity(i, *v) };
+        set.expect("a state of this scene");
     }
 }
 

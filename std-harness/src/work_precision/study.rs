@@ -74,9 +74,6 @@ impl Study {
             ..RunArgs::default()
         })?;
         (plan.seconds, plan.quiet) = (seconds, args.quiet);
-        if !accuracies.is_empty() && plan.model.moving.iter().any(|moving| !moving.particles.is_empty()) {
-            return Err(InputError::new("--accuracy: not for scenes with moving pins; take --dt"));
-        }
         // What the kernel refuses of the scene is bad input, not a row of the table.
         Simulation::<f64>::new(&plan)?;
         let size = size(&plan.model.position);

@@ -22,5 +22,6 @@ crate::entry_point::entry_points! {
     MassSpring::set_mass(s: &mut S<T>, i: usize, m: T) -> Result<(), EditError> { s.set_mass(i, m) }
     MassSpring::set_position(s: &mut S<T>, i: usize, x: V<T>) -> Result<(), EditError> { s.set_position(i, x) }
     MassSpring::set_velocity(s: &mut S<T>, i: usize, v: V<T>) -> Result<(), EditError> { s.set_velocity(i, v) }
+    MassSpring::set_pin_velocity(s: &mut S<T>, i: usize, v: V<T>) -> Result<(), EditError> { s.set_pin_velocity(i, v) }
     MassSpring::impulse(s: &mut S<T>, i: usize, p: V<T>) -> Result<(), EditError> { s.impulse(i, p) }
 }

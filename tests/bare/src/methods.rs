@@ -1,7 +1,7 @@
 //! Every method of time integration besides linearly-implicit Euler: made, and in a step under all forces.
 
 use hooke::{
-    Adaptive, BandedLdl, Embedded, EnergyMomentum, Force, LocalError, Made, Midpoint, Motion, Newton, Parts,
+    Adaptive, BandedLdl, Course, Embedded, EnergyMomentum, Force, LocalError, Made, Midpoint, Motion, Newton, Parts,
     Report, Rosenbrock2, Rosenbrock3, StepError, SymplecticEuler, Verlet, force::Rows,
 };
 
@@ -66,8 +66,10 @@ crate::entry_point::entry_points! {
     ) -> Stepped<T> {
         s.step_moving(method, motion)
     }
-    MassSpring::step[adaptive](s: &mut S<T>, method: &mut Controlled<'_, T, All<'_, T>>) -> Stepped<T> {
-        s.step(method)
+    MassSpring::step_moving[adaptive](
+        s: &mut S<T>, method: &mut Controlled<'_, T, All<'_, T>>, motion: &[Motion<T>],
+    ) -> Stepped<T> {
+        s.step_moving(method, motion)
     }
     Adaptive::new<'a>(method: Ros2<'a, T>, dt: T, joules: T) -> Controlled<'a, T> { Adaptive::new(method, dt, joules) }
     Adaptive::end_after(method: &mut Controlled<'_, T>, seconds: T) { method.end_after(seconds) }
@@ -76,20 +78,26 @@ crate::entry_point::entry_points! {
     Adaptive::made(method: &Controlled<'_, T>) -> Made<T> { method.made() }
     Adaptive::attained(method: &Controlled<'_, T>) -> T { method.attained() }
     Embedded::attempt(
-        method: &mut Ros3<'_, T, All<'_, T>>, parts: &mut Parts<'_, Owner<T>>, dt: T, joules: T, seen: &mut u32,
+        method: &mut Ros3<'_, T, All<'_, T>>, parts: &mut Parts<'_, Owner<T>>, dt: T, course: Course<'_, T>,
+        joules: T, seen: &mut u32,
     ) -> Result<(Report<T>, LocalError<T>), StepError> {
-        method.attempt(parts, dt, joules, &mut |island| *seen += island.solve.iterations)
+        method.attempt(parts, dt, course, joules, &mut |island| *seen += island.solve.iterations)
     }
-    Embedded::accept(method: &mut Ros3<'_, T, All<'_, T>>, parts: Parts<'_, Owner<T>>) -> Result<(), StepError> {
-        method.accept(parts)
+    Embedded::accept(
+        method: &mut Ros3<'_, T, All<'_, T>>, parts: Parts<'_, Owner<T>>, course: Course<'_, T>,
+    ) -> Result<(), StepError> {
+        method.accept(parts, course)
     }
-    Adaptive::probe(method: &mut Controlled<'_, T, All<'_, T>>, s: &mut S<T>) -> Result<(Report<T>, bool), StepError> {
-        method.probe(s)
+    Course::rest<'a>(_x: T) -> Course<'a, T> { Course::rest() }
+    Adaptive::probe(
+        method: &mut Controlled<'_, T, All<'_, T>>, s: &mut S<T>, motion: &[Motion<T>],
+    ) -> Result<(Report<T>, bool), StepError> {
+        method.probe(s, motion)
     }
-    MassSpring::step[adaptive_verlet](
-        s: &mut S<T>, method: &mut Adaptive<Verlet<T, All<'_, T>>, T>,
+    MassSpring::step_moving[adaptive_verlet](
+        s: &mut S<T>, method: &mut Adaptive<Verlet<T, All<'_, T>>, T>, motion: &[Motion<T>],
     ) -> Stepped<T> {
-        s.step(method)
+        s.step_moving(method, motion)
     }
     Embedded::longest(method: &mut Verlet<T, All<'_, T>>, parts: &mut Parts<'_, Owner<T>>) -> T {
         method.longest(parts)
