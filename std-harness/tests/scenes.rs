@@ -258,6 +258,18 @@ fn chosen_steps_follow_paths_and_their_corners_so_that_less_j_is_closer() {
     assert!(folder.path("out/frame_00020.vtp").exists());
 }
 
+/// A rest of 1e-10 s, which no number of f32 was, once asked for more than rounding leaves.
+#[test]
+fn in_single_precision_chosen_steps_end_at_the_end() {
+    let folder = Scratch::new();
+    for seconds in ["0.1", "0.13", "0.2", "0.31"] {
+        for integrator in ["ros2", "verlet", "auto"] {
+            let line = format!("run cloth:6 --integrator {integrator} --accuracy 1e-3 --seconds {seconds}");
+            folder.ok(&format!("{line} --precision f32 --final end.csv --quiet"));
+        }
+    }
+}
+
 #[test]
 fn outputs_of_a_file_are_relative_to_the_working_directory_and_options_win() {
     let folder = Scratch::new();
