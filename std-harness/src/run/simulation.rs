@@ -187,10 +187,10 @@ impl<T: Real + Display> Simulation<T> {
             end: plan.seconds,
             before: (0.0, lists(&scene)),
             after: None,
-            turns: true,
+            turns: false,
             count: Steps::default(),
         });
-        Ok(Self {
+        let mut simulation = Self {
             scene,
             integrator,
             work,
@@ -201,7 +201,12 @@ impl<T: Real + Display> Simulation<T> {
             motion: Vec::new(),
             dt: plan.dt,
             chosen,
-        })
+        };
+        if simulation.chosen.is_some() || simulation.integrator.interpolates() {
+            // A speed beyond the numbers is refused with the first motion.
+            let _ = simulation.depart(0.0);
+        }
+        Ok(simulation)
     }
 
     /// Step number `step`, counted from 1: from (step − 1)·dt to step·dt; where steps are chosen, as many as it takes. Answers
@@ -217,9 +222,6 @@ impl<T: Real + Display> Simulation<T> {
     /// A step of dt.
     fn fixed(&mut self, step: u64) -> Result<Report<T>, StepError> {
         let time = step as f64 * self.dt;
-        if step == 1 && self.integrator.interpolates() {
-            self.depart(0.0)?;
-        }
         self.motion.clear();
         for moving in &self.moving {
             let (displacement, rate) = moving.path.at(time);
