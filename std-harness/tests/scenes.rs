@@ -2,6 +2,9 @@
 
 use std::path::Path;
 
+use hooke_harness::cli::RunArgs;
+use hooke_harness::run::plan::Plan;
+use hooke_harness::run::simulation::Simulation;
 use hooke_harness::scene::source::{self, Loaded};
 use hooke_harness::scene::{Model, Path as Way, catalog};
 
@@ -256,6 +259,49 @@ fn chosen_steps_follow_paths_and_their_corners_so_that_less_j_is_closer() {
     let frames = end(&folder, "--integrator auto --accuracy 1e-6 --seconds 0.3125 --fps 64 --out out");
     assert_eq!(frames, end(&folder, "--integrator auto --accuracy 1e-6 --seconds 0.3125"));
     assert!(folder.path("out/frame_00020.vtp").exists());
+}
+
+#[test]
+fn a_pin_whose_path_is_straight_lines_is_on_them_at_every_moment_also_within_the_step_after_a_corner() {
+    let folder = Scratch::new();
+    let path = folder.write(
+        "zigzag.toml",
+        "generator = \"cloth:5\"\npin = \"none\"\npins = [0, 4]\n[[moving]]\nparticles = [4]\n\
+         through = [[0, 0, 0, 0], [0.0625, 0.1, 0, 0], [0.125, 0, 0.2, 0.1]]\n",
+    );
+    let args = RunArgs {
+        scene: path.to_str().map(Into::into),
+        integrator: "ros2".into(),
+        solver: "jacobi".into(),
+        accuracy: Some(1.0),
+        seconds: Some(0.1875),
+        fps: Some(4096.0),
+        ..RunArgs::default()
+    };
+    let plan = Plan::new(&args).unwrap();
+    let mut simulation = Simulation::<f64>::new(&plan).unwrap();
+    for step in 1..=plan.steps {
+        simulation.step(step).unwrap();
+        let (way, at) = (plan.model.moving[0].path.at(plan.time(step)).0, simulation.positions()[4]);
+        for c in 0..3 {
+            let expected = plan.model.position[4][c] + way[c];
+            assert!((at[c] - expected).abs() <= 1e-12, "{} s: {at:?}, not {way:?} away", plan.time(step));
+        }
+    }
+    let steps = simulation.chosen().unwrap();
+    assert!(steps.longest > 4.0 / 4096.0, "{steps:?}");
+}
+
+/// A rest of 1e-10 s, which no number of f32 was, once asked for more than rounding leaves.
+#[test]
+fn in_single_precision_chosen_steps_end_at_the_end() {
+    let folder = Scratch::new();
+    for seconds in ["0.1", "0.13", "0.2", "0.31"] {
+        for integrator in ["ros2", "verlet", "auto"] {
+            let line = format!("run cloth:6 --integrator {integrator} --accuracy 1e-3 --seconds {seconds}");
+            folder.ok(&format!("{line} --precision f32 --final end.csv --quiet"));
+        }
+    }
 }
 
 #[test]

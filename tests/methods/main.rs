@@ -13,4 +13,5 @@ mod every_method;
 mod minimization;
 mod moving_pins;
 mod orders;
+mod pins_under_way;
 mod step_limits;

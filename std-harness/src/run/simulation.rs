@@ -187,10 +187,10 @@ impl<T: Real + Display> Simulation<T> {
             end: plan.seconds,
             before: (0.0, lists(&scene)),
             after: None,
-            turns: true,
+            turns: false,
             count: Steps::default(),
         });
-        Ok(Self {
+        let mut simulation = Self {
             scene,
             integrator,
             work,
@@ -201,7 +201,12 @@ impl<T: Real + Display> Simulation<T> {
             motion: Vec::new(),
             dt: plan.dt,
             chosen,
-        })
+        };
+        if simulation.chosen.is_some() || simulation.integrator.interpolates() {
+            // A speed beyond the numbers is refused with the first motion.
+            let _ = simulation.depart(0.0);
+        }
+        Ok(simulation)
     }
 
     /// Step number `step`, counted from 1: from (step − 1)·dt to step·dt; where steps are chosen, as many as it takes. Answers
@@ -217,9 +222,6 @@ impl<T: Real + Display> Simulation<T> {
     /// A step of dt.
     fn fixed(&mut self, step: u64) -> Result<Report<T>, StepError> {
         let time = step as f64 * self.dt;
-        if step == 1 && self.integrator.interpolates() {
-            self.depart(0.0)?;
-        }
         self.motion.clear();
         for moving in &self.moving {
             let (displacement, rate) = moving.path.at(time);
@@ -292,7 +294,8 @@ impl<T: Real + Display> Simulation<T> {
             reports.push(self.integrator.step(&mut self.scene, &self.motion)?);
             let Some((made, _)) = self.integrator.made() else { break };
             let dt = made.dt.to_f64();
-            let whole = dt >= span * (1.0 - 1e-12);
+            // A span need not be a number of f32.
+            let whole = made.dt >= T::from_f64(span) || dt >= span * (1.0 - 1e-12);
             // The last step ends at the end, whatever its rounding.
             (chosen.time, chosen.turns) = match stop {
                 Some(stop) if whole => (stop, true),
@@ -312,10 +315,12 @@ impl<T: Real + Display> Simulation<T> {
         let stop = corners.fold(end, |first, corner| if corner < first { corner } else { first });
         let left = stop - time;
         let wanted = self.integrator.next().map_or(left, T::to_f64);
-        // Rather two halves than a long step and a short rest.
+        // Rather two halves than a long step and a short rest, whose rounding is an error of u|q|/h.
+        let rests = self.moving.is_empty();
         let (span, reached) = match left {
-            left if self.moving.is_empty() || left <= wanted => (left, Some(stop)),
+            left if left <= wanted || (rests && T::UNIT_ROUNDOFF.to_f64() < 1e-10) => (left, Some(stop)),
             left if left < 2.0 * wanted => (0.5 * left, None),
+            left if rests => (left, Some(stop)),
             _ => (wanted, None),
         };
         let then = reached.unwrap_or(time + span);

@@ -111,7 +111,7 @@ impl Suite {
     }
 }
 
-/// Steps cannot be chosen where pins move: `hooke run` refuses that.
+/// A step by itself has no end that a motion could be given over: where steps are chosen pins rest.
 fn goes(method: Method, prepared: &Prepared) -> bool {
     !method.chosen || prepared.model.moving.is_empty()
 }
