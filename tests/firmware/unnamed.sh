@@ -21,8 +21,8 @@ without_features() {
     sed -i -E '/^(pub )?(mod|use) (block_ilu|eisenstat|ssor|triangle)\b/d' "$source/solver/mod.rs"
     sed -i -E '/^pub use solver::\{BlockIlu/d' "$source/lib.rs"
     sed -i -E 's/^(pub use solver::).*$/\1{BlockJacobi, Jacobi, Multigrid, Preconditioner, Solver, Stop};/' "$source/lib.rs"
-    rm "$source"/integrator/{adaptive,embedded,energy_momentum,explicit,midpoint,newton,ros2,ros3,rosenbrock,stage,symplectic_euler,trial,verlet}.rs
-    sed -i -E '/^(pub )?(mod|use) (adaptive|embedded|energy_momentum|explicit|midpoint|newton|ros2|ros3|rosenbrock|stage|symplectic_euler|trial|verlet)\b/d' "$source/integrator/mod.rs"
+    rm "$source"/integrator/{adaptive,embedded,energy_momentum,explicit,limit,midpoint,newton,ros2,ros3,rosenbrock,stage,symplectic_euler,trial,verlet}.rs
+    sed -i -E '/^(pub )?(mod|use) (adaptive|embedded|energy_momentum|explicit|limit|midpoint|newton|ros2|ros3|rosenbrock|stage|symplectic_euler|trial|verlet)\b/d' "$source/integrator/mod.rs"
     sed -i -E '/^pub use integrator::/d' "$source/lib.rs"
     echo 'pub use integrator::{Integrator, LinearizedOnce, LinearlyImplicitEuler, Stepper};' >>"$source/lib.rs"
     rm "$source"/sleeping/{asleep,pattern,rest}.rs
