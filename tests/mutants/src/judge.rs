@@ -1,0 +1,62 @@
+//! Each mutant against the tests that pass it, the quick ones first, until one fails.
+
+use std::collections::{BTreeMap, HashSet};
+use std::fs::{self, OpenOptions};
+use std::io::Write;
+use std::path::Path;
+use std::time::Duration;
+
+use crate::mutant::{Result, is_meant, list};
+use crate::trace::{Ended, Test, run, tests};
+
+/// Tests of so many seconds together are run at a go.
+const GOES: [f64; 4] = [0.2, 2.0, 20.0, f64::INFINITY];
+/// A go may take so many times its seconds, and at least so many, before its mutant counts as one that never ends.
+const PATIENCE: (f64, f64) = (20.0, 10.0);
+
+/// Judges mutants of the files that words mean which have no verdict yet; `PLACE/verdicts.tsv` keeps number, verdict, name.
+pub fn judge(listed: &Path, place: &Path, words: &[&str]) -> Result<()> {
+    let mutants = list(listed)?;
+    let tests = tests(place)?;
+    let known = place.join("verdicts.tsv");
+    let mut decided: HashSet<usize> = HashSet::new();
+    for path in [&known, &place.join("unwoven.tsv")] {
+        let text = fs::read_to_string(path).unwrap_or_default();
+        decided.extend(text.lines().filter_map(|line| line.split('\t').next()?.parse::<usize>().ok()));
+    }
+    let mut out = OpenOptions::new().create(true).append(true).open(&known)?;
+    for (index, mutant) in mutants.iter().enumerate().filter(|(_, mutant)| is_meant(&mutant.file, words)) {
+        if decided.insert(index + 1) {
+            let verdict = one(index + 1, &tests)?;
+            writeln!(out, "{}\t{verdict}\t{}", index + 1, mutant.name)?;
+        }
+    }
+    Ok(())
+}
+
+/// What became of one mutant.
+fn one(number: usize, tests: &[Test]) -> Result<String> {
+    let mut passing: Vec<&Test> = tests.iter().filter(|test| test.reached.contains(&number)).collect();
+    if passing.is_empty() {
+        return Ok("unreached".into());
+    }
+    passing.reverse(); // Popped from the end, the quickest first.
+    for go in GOES {
+        let mut taken: BTreeMap<&Path, Vec<&Test>> = BTreeMap::new();
+        let mut seconds = 0.0;
+        while let Some(test) = passing.pop_if(|test| seconds == 0.0 || seconds + test.seconds <= go) {
+            seconds += test.seconds;
+            taken.entry(&test.binary).or_default().push(test);
+        }
+        for (binary, tests) in taken {
+            let names: Vec<&str> = tests.iter().map(|test| test.name.as_str()).collect();
+            let all: f64 = tests.iter().map(|test| test.seconds).sum();
+            match run(binary, &names, number, Duration::from_secs_f64((all * PATIENCE.0).max(PATIENCE.1)))? {
+                Ended::Passed => {}
+                Ended::Failed => return Ok("caught".into()),
+                Ended::TimedOut => return Ok("timed out".into()),
+            }
+        }
+    }
+    Ok("survived".into())
+}
