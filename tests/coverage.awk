@@ -25,8 +25,8 @@
 }
 function share(part, whole) { return whole ? sprintf("%.1f", 100 * part / whole) : "" }
 END {
+    printf "Lines run: **%s %%** of %d. Branches taken: **%s %%** of %d.\n\n", share(all_hit, all_lines), all_lines, share(all_taken, all_branches), all_branches
     print "| file | lines | run, % | branches | taken, % | lines that no test runs |"
     print "| --- | --: | --: | --: | --: | --- |"
-    printf "| **all** | %d | **%s** | %d | **%s** | |\n", all_lines, share(all_hit, all_lines), all_branches, share(all_taken, all_branches)
     for (i = 1; i <= n; i++) print of[row[i]]
 }

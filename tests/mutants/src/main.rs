@@ -1,7 +1,7 @@
 //! Every mutant of core that cargo-mutants lists, in one build: README.md tells how.
 //!
 //!     hooke-mutants weave TREE LIST PLACE [WORD…]   mutants of the files that words mean, into TREE, each asleep
-//!     hooke-mutants judge LIST PLACE [WORD…]        which of them a test notices; PLACE keeps what is known
+//!     hooke-mutants judge LIST PLACE SECONDS [WORD…]   which of them a test of so many seconds notices
 //!     hooke-mutants page TREE LIST PLACE REASONS    the page's tables
 
 mod find;
@@ -22,14 +22,17 @@ fn main() -> ExitCode {
         ["weave", tree, list, place, words @ ..] => {
             settle::weave(Path::new(tree), Path::new(list), Path::new(place), words)
         }
-        ["judge", list, place, words @ ..] => judge::judge(Path::new(list), Path::new(place), words),
+        ["judge", list, place, most, words @ ..] => match most.parse() {
+            Ok(most) => judge::judge(Path::new(list), Path::new(place), most, words),
+            Err(error) => Err(format!("{most}: {error}").into()),
+        },
         ["page", tree, list, place, reasons] => {
             page::page(Path::new(tree), Path::new(list), Path::new(place), Path::new(reasons))
         }
-        _ => {
-            Err("weave TREE LIST PLACE [WORD…] | judge LIST PLACE [WORD…] | page TREE LIST PLACE REASONS"
-                .into())
-        }
+        _ => Err(
+            "weave TREE LIST PLACE [WORD…] | judge LIST PLACE SECONDS [WORD…] | page TREE LIST PLACE REASONS"
+                .into(),
+        ),
     };
     match done {
         Ok(()) => ExitCode::SUCCESS,

@@ -56,9 +56,12 @@ impl Count {
         self.waiting += other.waiting;
     }
 
+    fn judged(&self) -> usize {
+        self.caught + self.timed_out + self.reasoned + self.survived + self.unreached
+    }
+
     fn row(&self, name: &str) -> String {
-        let found = self.caught + self.timed_out;
-        let judged = found + self.reasoned + self.survived + self.unreached;
+        let (found, judged) = (self.caught + self.timed_out, self.judged());
         let score =
             if judged == 0 { "–".into() } else { format!("{:.1} %", 100.0 * found as f64 / judged as f64) };
         format!(
@@ -128,9 +131,14 @@ pub fn page(tree: &Path, listed: &Path, place: &Path, why: &Path) -> Result<()> 
         }
     }
     let mut all = Count::default();
+    for count in counts.values() {
+        all.add(count);
+    }
+    let (found, judged) = (all.caught + all.timed_out, all.judged());
+    let score = 100.0 * found as f64 / judged.max(1) as f64;
+    println!("Noticed: **{score:.1} %** of {judged} judged, of {} listed.\n", mutants.len());
     print!("{HEAD}");
     for (file, count) in &counts {
-        all.add(count);
         print!("{}", count.row(&format!("`{}`", short(file))));
     }
     print!("{}", all.row("**all**"));

@@ -2,9 +2,10 @@
 
 use std::collections::BTreeSet;
 use std::fs;
+use std::os::unix::process::ExitStatusExt;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
-use std::time::{Duration, Instant};
+use std::time::Instant;
 
 use crate::mutant::Result;
 
@@ -21,8 +22,9 @@ fn binaries(place: &Path) -> Result<Vec<PathBuf>> {
     Ok(fs::read_to_string(place.join("binaries"))?.lines().map(PathBuf::from).collect())
 }
 
-/// All tests, each traced once; what is known from before is read.
-pub fn tests(place: &Path) -> Result<Vec<Test>> {
+/// All tests, each traced once; what is known from before is read. One that takes more than so many seconds of a processor is cut
+/// off: its seconds are infinite, and what it reaches is not known.
+pub fn tests(place: &Path, most: f64) -> Result<Vec<Test>> {
     let traces = place.join("traces");
     fs::create_dir_all(&traces)?;
     let mut tests = Vec::new();
@@ -33,20 +35,29 @@ pub fn tests(place: &Path) -> Result<Vec<Test>> {
             let stem = binary.file_name().unwrap_or_default().to_string_lossy();
             let path = traces.join(format!("{stem}.{}", name.replace("::", ".")));
             let done = path.with_file_name(format!("{stem}.{}.seconds", name.replace("::", ".")));
-            if !done.exists() {
+            let known = fs::read_to_string(&done).ok().and_then(|text| text.parse::<f64>().ok());
+            if known.is_none_or(|seconds| seconds.is_infinite() && most.is_infinite()) {
                 let _ = fs::remove_file(&path);
                 let before = Instant::now();
-                let status = Command::new(&binary)
+                let limit =
+                    if most.is_finite() { format!("ulimit -t {};", most.ceil()) } else { String::new() };
+                let status = Command::new("sh")
+                    .args(["-c", &format!("{limit} exec \"$0\" \"$@\"")])
+                    .arg(&binary)
                     .args([name, "--exact", "--test-threads", "1"])
                     .env("HOOKE_REACHED", &path)
                     .stdout(Stdio::null())
                     .stderr(Stdio::null())
                     .status()?;
-                if !status.success() {
+                let cut = matches!(status.signal(), Some(24 | 9));
+                if cut {
+                    let _ = fs::remove_file(&path);
+                } else if !status.success() {
                     eprintln!("{name} fails without any mutant: it judges none");
                     let _ = fs::remove_file(&path);
                 }
-                fs::write(&done, before.elapsed().as_secs_f64().to_string())?;
+                let seconds = if cut { f64::INFINITY } else { before.elapsed().as_secs_f64() };
+                fs::write(&done, seconds.to_string())?;
             }
             let text = fs::read_to_string(&path).unwrap_or_default();
             let reached = text.lines().filter_map(|line| line.parse().ok()).collect();
@@ -66,28 +77,22 @@ pub enum Ended {
     TimedOut,
 }
 
-/// Some tests of one binary with one mutant awake, for a limited time.
-pub fn run(binary: &Path, names: &[&str], mutant: usize, limit: Duration) -> Result<Ended> {
-    let mut child = Command::new(binary)
+/// Some tests of one binary with one mutant awake, for so many seconds of a processor.
+pub fn run(binary: &Path, names: &[&str], mutant: usize, seconds: u64) -> Result<Ended> {
+    let status = Command::new("sh")
+        .args(["-c", &format!("ulimit -t {seconds}; exec \"$0\" \"$@\"")])
+        .arg(binary)
         .args(names)
         .args(["--exact", "--test-threads", "1"])
         .env("HOOKE_MUTANT", mutant.to_string())
         .stdin(Stdio::null())
         .stdout(Stdio::null())
         .stderr(Stdio::null())
-        .spawn()?;
-    let before = Instant::now();
-    let mut pause = Duration::from_millis(1);
-    loop {
-        if let Some(status) = child.try_wait()? {
-            return Ok(if status.success() { Ended::Passed } else { Ended::Failed });
-        }
-        if before.elapsed() > limit {
-            child.kill()?;
-            child.wait()?;
-            return Ok(Ended::TimedOut);
-        }
-        std::thread::sleep(pause);
-        pause = (pause * 2).min(Duration::from_millis(50));
-    }
+        .status()?;
+    // SIGXCPU, or SIGKILL after it.
+    Ok(match status.signal() {
+        Some(24 | 9) => Ended::TimedOut,
+        _ if status.success() => Ended::Passed,
+        _ => Ended::Failed,
+    })
 }
