@@ -24,7 +24,7 @@ if [ "$(cat "$place/sources" 2>/dev/null)" != "$sources" ]; then
 fi
 
 # The tree with the mutants in it. The replay of fuzz corpora and the programs are left out: they compile for long and judge little.
-# The harness stays unoptimized for the same reason, and what it makes of core is not shared with the tests.
+# Nothing of the workspace is optimized for the same reason.
 if [ "$(cat "$place/woven" 2>/dev/null)" != "$*" ]; then
     rm -rf "$tree" "$place/traces"
     mkdir -p "$tree"
@@ -32,15 +32,17 @@ if [ "$(cat "$place/woven" 2>/dev/null)" != "$*" ]; then
     rm -r "$tree/tests/src/bin"
     awk -v RS= -v ORS='\n\n' '!/replay/' tests/Cargo.toml | sed '/fuzz-bodies/d' >"$tree/tests/Cargo.toml"
     CARGO_TARGET_DIR=$target/woven "$tool" weave "$tree" "$place/list.json" "$place" "$@"
-    (cd "$tree" && RUSTC_BOOTSTRAP=1 RUSTFLAGS="--cap-lints warn -Zshare-generics=n" CARGO_PROFILE_DEV_DEBUG=false CARGO_INCREMENTAL=0 \
-        cargo test -p hooke-tests --config 'profile.dev.package.hooke-harness.opt-level=0' --no-run --target-dir "$target/woven" 2>&1) |
+    (cd "$tree" && RUSTFLAGS="--cap-lints warn" CARGO_PROFILE_DEV_DEBUG=false CARGO_PROFILE_DEV_OPT_LEVEL=0 CARGO_INCREMENTAL=0 \
+        cargo test -p hooke-tests --no-run --target-dir "$target/woven" 2>&1) |
         tee "$place/build" | sed -n '/Executable [a-z]*\/main.rs/s/.*(\(.*\))$/\1/p' >"$place/binaries"
     [ -s "$place/binaries" ] || { tail -n 20 "$place/build" >&2; exit 1; }
     echo "$*" >"$place/woven"
 fi
 
-# A test that never ends for a mutant may also eat all memory.
-(cd "$tree/tests" && ulimit -v 8000000 && "$tool" judge "$place/list.json" "$place" "$@")
+# The quick tests first, which notice most. A test that never ends for a mutant may also eat all memory.
+for seconds in 1 inf; do
+    (cd "$tree/tests" && ulimit -v 8000000 && "$tool" judge "$place/list.json" "$place" "$seconds" "$@")
+done
 {
     sed '/^<!-- mutants -->$/q' tests/MUTANTS.md
     echo

@@ -52,12 +52,14 @@ memcheck() {
         check "valgrind: cloth:16 by $solver" "${run[@]}" --solver "$solver" cloth:16
     done
     for method in midpoint ros3 newton energy-momentum symplectic-euler; do
-        check "valgrind: cloth:16 by $method" "${run[@]}" --integrator "$method" --dt 0.001 cloth:16
+        check "valgrind: cloth:16 by $method" "${run[@]}" --integrator "$method" --dt 0.0005 cloth:16
     done
-    check "valgrind: lattice:6 in f32" "${run[@]}" --precision f32 --solver wide lattice:6
+    check "valgrind: lattice:6x6x6 in f32" "${run[@]}" --precision f32 --solver wide lattice:6x6x6
     check "valgrind: a scene with files" "${run[@]}" std-harness/examples/bridge.toml
-    for mesh in std-harness/tests/data/*.{obj,mesh,msh,ply,stl,vtk,vtu,vtp}; do
-        [ -f "$mesh" ] && check "valgrind: info $(basename "$mesh")" "${see[@]}" "$target/release/hooke" info "$mesh"
+    for mesh in medit/tetrahedron:mesh obj/quad_and_line:obj gmsh/binary_4:msh ply/edges_big_endian:ply stl/binary:stl vtk/grid:vtk \
+        vtk_xml/grid:vtu vtk_xml/poly:vtp; do
+        cp "fuzz/corpus/mesh_${mesh%:*}" "$work/mesh.${mesh#*:}"
+        check "valgrind: info of ${mesh%:*}" "${see[@]}" "$target/release/hooke" info "$work/mesh.${mesh#*:}"
     done
     check "valgrind: the C interface" core/c/tests/check.sh
 }
