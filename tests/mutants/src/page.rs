@@ -61,9 +61,10 @@ impl Count {
     }
 
     fn row(&self, name: &str) -> String {
-        let (found, judged) = (self.caught + self.timed_out, self.judged());
+        // What is to do counts as not noticed.
+        let (found, judged) = (self.caught + self.timed_out, self.judged() + self.waiting);
         let score =
-            if judged == 0 { "–".into() } else { format!("{:.1} %", 100.0 * found as f64 / judged as f64) };
+            if found == 0 { "–".into() } else { format!("{:.1} %", 100.0 * found as f64 / judged as f64) };
         format!(
             "| {name} | {judged} | {} | {} | {score} | {} | {} | {} | {} | {} | {} |\n",
             self.caught,
@@ -78,7 +79,7 @@ impl Count {
     }
 }
 
-const HEAD: &str = "| file | judged | caught | timed out | score | live for a reason | live without | passed by no test | unviable | left | to do |\n\
+const HEAD: &str = "| file | viable | caught | timed out | score | live for a reason | live without | passed by no test | unviable | left | to do |\n\
                     | --- | --: | --: | --: | --: | --: | --: | --: | --: | --: | --: |\n";
 
 /// Writes the page's generated part to standard output.
@@ -134,9 +135,13 @@ pub fn page(tree: &Path, listed: &Path, place: &Path, why: &Path) -> Result<()> 
     for count in counts.values() {
         all.add(count);
     }
-    let (found, judged) = (all.caught + all.timed_out, all.judged());
-    let score = 100.0 * found as f64 / judged.max(1) as f64;
-    println!("Noticed: **{score:.1} %** of {judged} judged, of {} listed.\n", mutants.len());
+    let found = all.caught + all.timed_out;
+    println!(
+        "Noticed: **{found}** of {} that are or may be viable, {} of them to do; {} listed.\n",
+        all.judged() + all.waiting,
+        all.waiting,
+        mutants.len()
+    );
     print!("{HEAD}");
     for (file, count) in &counts {
         print!("{}", count.row(&format!("`{}`", short(file))));
