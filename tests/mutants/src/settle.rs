@@ -1,6 +1,7 @@
 //! Weaves all mutants in and lets the compiler say which cannot be: those have no type (unviable), or stand where no choice at
 //! run time can stand, such as in a `const fn` (left to cargo-mutants itself).
 
+use std::collections::btree_map::Entry;
 use std::collections::{BTreeMap, HashMap};
 use std::fs;
 use std::path::Path;
@@ -79,11 +80,11 @@ fn read(tree: &Path, mutants: &[Mutant], words: &[&str]) -> Result<BTreeMap<Stri
     let named = mutants.iter().map(|mutant| &mutant.file).filter(|file| is_meant(file, words));
     let names = named.cloned().chain(["core/src/lib.rs".to_owned()]);
     for name in names {
-        if !files.contains_key(&name) {
-            let source = fs::read_to_string(tree.join(&name))?;
-            let sites = sites(&source, &name, mutants).map_err(|error| format!("{name}: {error}"))?;
+        if let Entry::Vacant(free) = files.entry(name) {
+            let (source, name) = (fs::read_to_string(tree.join(free.key()))?, free.key());
+            let sites = sites(&source, name, mutants).map_err(|error| format!("{name}: {error}"))?;
             let manners = vec![Manner::Reference; sites.len()];
-            files.insert(name, File { source, woven: String::new(), sites, manners });
+            free.insert(File { source, woven: String::new(), sites, manners });
         }
     }
     Ok(files)
