@@ -18,14 +18,16 @@ cargo +nightly fuzz build
 built=$CARGO_TARGET_DIR/$(rustc -vV | sed -n 's/^host: //p')/release
 mkdir -p "$logs"
 
+TIMEFORMAT='processor: %U s'
 failed=0
 for target in "${targets[@]}"; do
     grown=$CARGO_TARGET_DIR/corpus/$target
     mkdir -p "$grown" "artifacts/$target"
     log=$logs/$target.$(find "$logs" -name "$target.*.log" | wc -l).log
     # Memory: no input of a thousand bytes needs so much, unless a count in a header is believed.
-    "$built/$target" "$grown" "corpus/$target" -artifact_prefix="artifacts/$target/" -max_total_time="$seconds" \
-        -timeout=10 -rss_limit_mb=2048 -max_len=1024 -print_final_stats=1 >"$log" 2>&1 || { tail -20 "$log" >&2; failed=1; }
+    # The time of the processor tells what a run on a busy machine is worth.
+    { time "$built/$target" "$grown" "corpus/$target" -artifact_prefix="artifacts/$target/" -max_total_time="$seconds" \
+        -timeout=10 -rss_limit_mb=2048 -max_len=1024 -print_final_stats=1 >"$log" 2>&1; } 2>>"$log" || { tail -20 "$log" >&2; failed=1; }
 done
 ./table.sh
 exit $failed

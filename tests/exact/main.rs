@@ -18,6 +18,7 @@ mod edits;
 mod energy;
 mod errors;
 mod extremes;
+mod forces;
 mod in_place;
 mod islands;
 mod matrices;

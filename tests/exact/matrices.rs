@@ -105,3 +105,12 @@ fn scattered_forces_and_stiffness_equal_the_dense_matrices() {
         );
     }
 }
+
+#[test]
+fn the_cross_product_is_its_definition() {
+    // Of primes, so that no term stands for another.
+    assert_eq!(
+        hooke::vec3::cross([2.0, 3.0, 5.0], [7.0, 11.0, 13.0]),
+        [39.0 - 55.0, 35.0 - 26.0, 22.0 - 21.0]
+    );
+}

@@ -86,3 +86,23 @@ fn free_fall_is_the_closed_form_with_theta_one_bit_for_bit() {
         assert_eq!(scene.velocities()[i], [v0[0], v0[1] - g * t, v0[2]]);
     }
 }
+
+#[test]
+fn strain_and_stretch_factor_are_l_minus_l0_and_1_minus_l0_over_l_where_there_is_a_length() {
+    let mut scene = hooke::Scene::<f64, 4, 3>::new();
+    for x in [[0.0; 3], [3.0, 4.0, 0.0], [3.0, 4.0, 1.0], [3.0, 4.0, 1.0]] {
+        scene.particle(x, 1.0).unwrap();
+    }
+    for (a, b, rest_length) in [(0, 1, 2.5), (1, 2, 4.0), (2, 3, 1.0)] {
+        scene.spring_with(a, b, hooke::Spring { stiffness: 1.0, rest_length }).unwrap();
+    }
+    let found = |scene: &hooke::Scene<f64, 4, 3>, j: usize| {
+        (scene.springs().length_of(j), scene.springs().strain_of(j), scene.springs().stretch_factor_of(j))
+    };
+    assert_eq!(found(&scene, 0), (Some(5.0), Some(2.5), Some(0.5)), "stretched");
+    assert_eq!(found(&scene, 1), (Some(1.0), Some(-3.0), Some(-3.0)), "compressed");
+    assert_eq!(found(&scene, 2), (Some(0.0), Some(-1.0), None), "of length 0");
+    assert_eq!(found(&scene, 3), (None, None, None), "out of range");
+    scene.break_spring(0).unwrap();
+    assert_eq!(found(&scene, 0), (None, None, None), "broken");
+}
