@@ -1,8 +1,8 @@
 //! Every method of time integration besides linearly-implicit Euler: made, and in a step under all forces.
 
 use hooke::{
-    Adaptive, BandedLdl, Course, Embedded, EnergyMomentum, Force, LocalError, Made, Midpoint, Motion, Newton, Parts,
-    Report, Rosenbrock2, Rosenbrock3, StepError, SymplecticEuler, Verlet, force::Rows,
+    Adaptive, BandedLdl, Course, Embedded, EnergyMomentum, Force, LocalError, Made, Midpoint, Motion, Newton,
+    Parts, Report, Rosenbrock2, Rosenbrock3, StepError, SymplecticEuler, Verlet, force::Rows,
 };
 
 use crate::shared::*;
