@@ -46,8 +46,9 @@ pub(super) fn analyse<T: Real>(
         let (order, other) = touching.split_at_mut_checked(springs)?;
         let sorted = sort(size.rows, input, order, other, first);
         let per_place = if finest { TIED } else { FULL };
-        // Strips if there is room for them; if not, loose edges, which take least. (A strip takes a third of the time of a loose
-        // edge, however empty it is; but nothing must be left for the coarser levels if the finest took all.)
+        // Strips if there is room for them; if not, loose edges, which take least. (A strip should take
+        // a third of the time of a loose edge, counted in instructions and not measured, however empty it is; but nothing would be
+        // left for the coarser levels if the finest took all.)
         let mut joined = Edges { ends: input, sorted, alone: finest, sparse: SPARSE };
         let (mut count, mut level_numbers) = (0, 0);
         for limit in if finest { [SPARSE, SPARSE, 0] } else { [4 * SPARSE, SPARSE, 0] } {

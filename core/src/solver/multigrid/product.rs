@@ -5,7 +5,7 @@
 //!
 //! Measured (cloth:32, a smoothing step with its product, 16 lanes of AVX-512 at 2.7 GHz): 1.9 µs, 0.5 ns a spring. With edges
 //! once, in planes, their forces put down and taken up again, 3.9 µs. What it takes is that a tile's blocks lie together, begin
-//! at a line of the cache (else 2.4 µs), and that one question does for a whole window of d.
+//! at a line of the cache (else 2.3 µs), and that one question does for a whole window of d.
 
 use super::block::Kind;
 use super::level::{Level, tiles};

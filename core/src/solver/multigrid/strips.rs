@@ -1,8 +1,8 @@
 //! Where a level's edges lie. A *strip* is a tile of rows i and one offset d: the blocks of the edges between i and i + d, lane
 //! by lane, zero where there is no edge. A product reads strips in order, needs no index but d, and scatters nothing: every edge
 //! lies in two strips, that of its lower and that of its upper row, and is computed twice. Edges whose strips would be mostly
-//! empty are *loose* instead: tiles of any edges, each once, with their ends. A cloth has eight strips a tile on every level; a
-//! bunny is mostly loose.
+//! empty are *loose* instead: tiles of any edges, each once, with their ends. A cloth has eight strips a tile on its finest
+//! level; a bunny is mostly loose.
 //!
 //! A tile's strips come one after another, by ascending d: so every row's sum is in the order of the other ends, whatever the
 //! width of a tile.
