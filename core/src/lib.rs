@@ -43,7 +43,7 @@ pub use energy::Energies;
 pub use error::{EditError, StepError};
 pub use force::{Drag, Force, Gravity, PointForce, PointSpring, SpringDamping};
 pub use hessian::{Hessian, Scaling};
-pub use integrator::{Adaptive, Made};
+pub use integrator::{Adaptive, Made, Probed};
 pub use integrator::{AtTheMiddle, Midpoint};
 pub use integrator::{Combination, Ros2, Ros34Pw2, Rosenbrock2, Rosenbrock3, Stage, Staged, Tableau};
 pub use integrator::{Conserving, EnergyMomentum};

@@ -10,6 +10,7 @@ mod conservation;
 mod dense_step;
 mod error_control;
 mod every_method;
+mod foretold;
 mod minimization;
 mod moving_pins;
 mod orders;

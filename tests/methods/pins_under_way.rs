@@ -116,10 +116,11 @@ fn a_probe_goes_no_farther_than_the_motion_is_known_and_leaves_the_scene_as_it_w
     let mut method = Adaptive::new(method, 1.0, 1e-6);
     assert_eq!(method.probe(&mut scene, &motion).unwrap_err(), StepError::Motion(0));
     method.end_after(SPAN / 1024.0);
-    let (_, settled) = method.probe(&mut scene, &motion).unwrap();
-    assert!(settled, "there is no longer one to try");
+    let probed = method.probe(&mut scene, &motion).unwrap();
+    assert!(probed.settled, "there is no longer one to try");
     // What it asks for may be longer than that, within its twentyfold.
     let asked = method.dt();
+    assert_eq!(asked, probed.dt);
     assert!(asked > SPAN / 1024.0 && asked <= 20.0 * SPAN / 1024.0, "{asked}");
     assert_eq!(build::bits(&scene), before);
 }

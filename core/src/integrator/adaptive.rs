@@ -84,6 +84,21 @@ pub struct Made<T> {
     pub rejections: u32,
 }
 
+/// What an attempt that was not taken has shown ([`Adaptive::probe`]).
+#[derive(Debug, Clone, Copy, PartialEq)]
+#[cfg_attr(feature = "defmt", derive(defmt::Format))]
+pub struct Probed<T> {
+    /// What such a step costs.
+    pub report: Report<T>,
+    /// The step that the next one begins with, s, also what [`Adaptive::dt`] answers.
+    pub dt: T,
+    /// The energy of the error that a step of this length is foretold to have, J: about what was asked for where the error
+    /// decides on the length, less where the method has no longer step that is stable.
+    pub energy: T,
+    /// Was the length that was tried right within a factor of 2?
+    pub settled: bool,
+}
+
 impl<I, T: Real> Adaptive<I, T> {
     /// A method that begins with a step of `dt` seconds and takes steps whose error is at most so many joules.
     pub const fn new(method: I, dt: T, accuracy: T) -> Self {
@@ -177,8 +192,7 @@ impl<I: Embedded<T>, T: Real> Adaptive<I, T> {
 
 impl<I: Embedded<T>, T: Real> Adaptive<I, T> {
     /// One attempt at a step where the scene is, which is not taken: the next begins with the length that its error asks for
-    /// ([`Adaptive::dt`]), at most twenty times more or less. Answers the attempt's report, what such a step costs, and whether
-    /// the length was right within a factor of 2. A few of them find how long a step may be, for choosing between methods.
+    /// ([`Probed::dt`]), at most twenty times more or less. A few of them find how long a step may be, for choosing between methods.
     ///
     /// # Errors
     /// [`StepError`]; the scene has not changed. After [`StepError::NotFinite`] the next attempt is twenty times shorter.
@@ -186,7 +200,7 @@ impl<I: Embedded<T>, T: Real> Adaptive<I, T> {
         &mut self,
         scene: &mut MassSpring<M>,
         motion: &[Motion<T>],
-    ) -> Result<(Report<T>, bool), StepError> {
+    ) -> Result<Probed<T>, StepError> {
         let course = self.course(motion)?;
         let mut parts = scene.parts();
         let longest = self.method.longest(&mut parts);
@@ -211,7 +225,8 @@ impl<I: Embedded<T>, T: Real> Adaptive<I, T> {
         let root = if I::LOWER_ORDER <= 1 { root(ratio, 2) } else { root(ratio, 3) * root(ratio, 4) };
         let factor = within(T::from_f64(0.9) * root, T::from_f64(0.05), T::from_f64(20.0));
         self.before = T::ONE;
-        let next = self.dt * factor;
+        let tried = self.dt;
+        let next = tried * factor;
         if (next * next).is_finite() {
             self.dt = next;
         }
@@ -219,7 +234,15 @@ impl<I: Embedded<T>, T: Real> Adaptive<I, T> {
         if cut {
             self.dt = longest;
         }
-        Ok((report, (factor > T::HALF && factor < T::TWO) || ((cut || ends) && factor > T::ONE)))
+        let longer = self.dt / tried;
+        let square = longer * longer;
+        let power = if I::LOWER_ORDER <= 1 { square * square } else { square * square * square };
+        Ok(Probed {
+            report,
+            dt: self.dt,
+            energy: error.energy * power,
+            settled: (factor > T::HALF && factor < T::TWO) || ((cut || ends) && factor > T::ONE),
+        })
     }
 
     /// Motions over the time until the end, which they must have.

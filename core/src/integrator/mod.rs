@@ -17,7 +17,7 @@ mod symplectic_euler;
 mod trial;
 mod verlet;
 
-pub use adaptive::{Adaptive, Made};
+pub use adaptive::{Adaptive, Made, Probed};
 pub use embedded::{Embedded, LocalError};
 pub use energy_momentum::{Conserving, EnergyMomentum};
 pub use limit::Stiffest;

@@ -196,7 +196,6 @@ impl<T: Real, F: Force<T>, S: Solver<T>, W: AsMut<[Vec3<T>]>, Z> Integrator<T>
                             let v = island.vectors.y.get(row).copied().unwrap_or([T::ZERO; 3]);
                             [vec3::add_scaled(q, h, v), v]
                         });
-                        way.before = T::ZERO;
                         break;
                     }
                     if halvings >= HALVINGS {

@@ -2,7 +2,7 @@
 
 use hooke::{
     Adaptive, EnergyMomentum, Force, LinearlyImplicitEuler, Made, MassSpring, Memory, Midpoint, Motion,
-    Newton, Real, Report, Rosenbrock2, Rosenbrock3, Sleeping, StepError, SymplecticEuler, Verlet,
+    Newton, Probed, Real, Report, Rosenbrock2, Rosenbrock3, Sleeping, StepError, SymplecticEuler, Verlet,
 };
 
 use super::choice::{Auto, COMPETITORS};
@@ -116,16 +116,6 @@ pub enum AnyIntegrator<T: Real> {
     AdaptiveVerlet(Adaptive<Verlet<T, Forces<T>>, T>),
     /// [`Integrator::Auto`]
     Auto(Box<Auto<T>>),
-}
-
-/// An attempt at a step that was not taken.
-pub struct Probed<T> {
-    /// The step that its error asks for, s.
-    pub dt: T,
-    /// Its report.
-    pub report: Report<T>,
-    /// Was it about that long itself?
-    pub settled: bool,
 }
 
 /// What an integrator is to be made with.
@@ -311,7 +301,7 @@ impl<T: Real> AnyIntegrator<T> {
         }
     }
 
-    /// With chosen steps: an attempt that is not taken ([`Adaptive::probe`]), and the step that it asks for, s.
+    /// With chosen steps: an attempt that is not taken ([`Adaptive::probe`]).
     pub fn probe(
         &mut self,
         scene: &mut MassSpring<Heap<T>>,
@@ -319,11 +309,7 @@ impl<T: Real> AnyIntegrator<T> {
     ) -> Option<Result<Probed<T>, StepError>> {
         macro_rules! probed {
             ($method:expr) => {
-                Some($method.probe(scene, motion).map(|(report, settled)| Probed {
-                    dt: $method.dt(),
-                    report,
-                    settled,
-                }))
+                Some($method.probe(scene, motion))
             };
         }
         match self {

@@ -176,7 +176,11 @@ impl<T: Real + Display> Simulation<T> {
             };
             let (tolerance, precision) = (plan.tolerance, plan.precision);
             let prices = Prices::new(model, plan.first, tolerance, precision, plan.method);
-            AnyIntegrator::Auto(Box::new(Auto::new(COMPETITORS.map(member).into(), prices)))
+            AnyIntegrator::Auto(Box::new(Auto::new(
+                COMPETITORS.map(member).into(),
+                prices,
+                plan.accuracy.unwrap_or(f64::INFINITY),
+            )))
         } else {
             AnyIntegrator::new(plan.integrator, &options, forces, solver, sleeping)
         };

@@ -2,7 +2,7 @@
 
 use hooke::{
     Adaptive, BandedLdl, Course, Embedded, EnergyMomentum, Force, LocalError, Made, Midpoint, Motion, Newton,
-    Parts, Report, Rosenbrock2, Rosenbrock3, StepError, SymplecticEuler, Verlet, force::Rows,
+    Parts, Probed, Report, Rosenbrock2, Rosenbrock3, StepError, SymplecticEuler, Verlet, force::Rows,
 };
 
 use crate::shared::*;
@@ -91,7 +91,7 @@ crate::entry_point::entry_points! {
     Course::rest<'a>(_x: T) -> Course<'a, T> { Course::rest() }
     Adaptive::probe(
         method: &mut Controlled<'_, T, All<'_, T>>, s: &mut S<T>, motion: &[Motion<T>],
-    ) -> Result<(Report<T>, bool), StepError> {
+    ) -> Result<Probed<T>, StepError> {
         method.probe(s, motion)
     }
     MassSpring::step_moving[adaptive_verlet](
