@@ -72,7 +72,7 @@ fn refine<T: Real, F: Force<T>, D: Dispatch>(
         from = reached;
     }
     let Some(ending) = ending.filter(|_| sound) else {
-        let Lanes { layout, way, front, work, system, dispatch, .. } = lanes;
+        let Widened { layout, way, front, work, system, dispatch, .. } = &mut lanes.of;
         // Twice inverted, μ is off by two roundings: the bounds' cover has room for more.
         for mu in front.mu.iter_mut() {
             *mu = if *mu > T::ZERO { T::ONE / *mu } else { T::ZERO };
@@ -91,7 +91,7 @@ fn factor<T: Real, F: Force<T>, D: Dispatch>(
     lanes: &Lanes<'_, '_, T, F, D, Diagonal>,
     rows: &mut [Rows<T>],
 ) -> Option<Last<T>> {
-    let Lanes { layout, way, front, work, system, dispatch, .. } = lanes;
+    let Widened { layout, way, front, work, system, dispatch, .. } = &lanes.of;
     let (n, pad) = (layout.plane(), layout.pad);
     let [alpha, x, y, z] = [0, 1, 2, 3].map(|k| front.hessians.get(k * n..).unwrap_or_default());
     dispatch.run(
@@ -121,7 +121,7 @@ fn add_correction<T: Real, F: Force<T>, D: Dispatch>(
     joint: &Last<T>,
     on_its_way: bool,
 ) {
-    let Lanes { layout, work, dispatch, .. } = lanes;
+    let Widened { layout, work, dispatch, .. } = &mut lanes.of;
     if !on_its_way {
         let taken = dispatch.run(
             #[inline(always)]
@@ -148,7 +148,7 @@ fn add_correction<T: Real, F: Force<T>, D: Dispatch>(
 
 /// ½ Σ (|rᵢ| − δᵢ)²₊/νᵢ, rounded down: see [`crate::solver::direct`]. What points add to ν goes into a plane of y.
 fn lower<T: Real, F: Force<T>, D: Dispatch>(lanes: &mut Lanes<'_, '_, T, F, D, Diagonal>) -> T {
-    let Lanes { layout, way, front, work, system, dispatch, .. } = lanes;
+    let Widened { layout, way, front, work, system, dispatch, .. } = &mut lanes.of;
     let matrix = Matrix { layout, way: *way, hessians: front.hessians, inertia: front.inertia };
     let [added, ..] = &mut work.y.0;
     let mut points = 0_usize;

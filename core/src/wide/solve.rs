@@ -55,16 +55,15 @@ impl<T: Real, F: Force<T>, D: Dispatch> Widened<'_, '_, T, F, D> {
 impl<'s, 'a, T: Real, F: Force<T>, D: Dispatch> Widened<'s, 'a, T, F, D> {
     /// With what preconditions it.
     pub(crate) fn preconditioned<P: Preconditioner<T>>(self, preconditioner: P) -> Lanes<'s, 'a, T, F, D, P> {
-        let Self { layout, way, front, work, system, dispatch, .. } = self;
-        Lanes { layout, way, front, work, system, dispatch, preconditioner }
+        Lanes { of: self, preconditioner }
     }
 }
 
 impl<T: Real, F: Force<T>, D: Dispatch, P> Lanes<'_, '_, T, F, D, P> {
     /// The answer to `x`, row by row.
     pub(crate) fn hand_out(&self, x: &mut [Vec3<T>]) {
-        for (row, (x, particle)) in x.iter_mut().zip(self.system.matrix.rows.particle).enumerate() {
-            *x = self.work.x.row(self.way.place(row, *particle));
+        for (row, (x, particle)) in x.iter_mut().zip(self.of.system.matrix.rows.particle).enumerate() {
+            *x = self.of.work.x.row(self.of.way.place(row, *particle));
         }
     }
 }
@@ -99,34 +98,22 @@ pub(crate) fn invert_diagonal<T: Real, F: Force<T>, D: Dispatch>(
 
 /// The same with what preconditions it.
 pub(crate) struct Lanes<'s, 'a, T, F, D, P> {
-    pub(crate) layout: &'s Layout,
-    pub(crate) way: Way<'s>,
-    pub(crate) front: Front<'a, T>,
-    pub(crate) work: Iterates<'a, T>,
-    pub(crate) system: System<'s, T, F>,
-    pub(crate) dispatch: D,
+    pub(crate) of: Widened<'s, 'a, T, F, D>,
     preconditioner: P,
 }
 
-/// z = B r ≈ A⁻¹ r in lanes.
+/// z = B r ≈ A⁻¹ r in lanes, and the iterations with it.
 pub(crate) trait Preconditioner<T: Real> {
-    /// x += a p, r −= a y, and then y = z = B r, unless ½ Σ|rᵢ|²/μᵢ ≤ target. Answers Σ|rᵢ|²/μᵢ and rᵀz.
-    fn sweep(&mut self, to: Sweep<'_, '_, T>) -> (T, T);
+    /// See [`pcg::Iterates::iterate`].
+    fn iterate<F: Force<T>, D: Dispatch>(
+        &mut self,
+        of: &mut Widened<'_, '_, T, F, D>,
+        target: T,
+        max_iterations: u32,
+        iterations: &mut u32,
+    ) -> bool;
     /// y = z = B r
-    fn apply(&mut self, to: Sweep<'_, '_, T>);
-}
-
-/// What a preconditioner works on.
-pub(crate) struct Sweep<'w, 'a, T> {
-    pub(crate) layout: &'w Layout,
-    pub(crate) way: Way<'w>,
-    pub(crate) work: &'w mut Iterates<'a, T>,
-    pub(crate) weight: &'w [T],
-    /// The particle of each row
-    pub(crate) rows: &'w [u32],
-    /// a
-    pub(crate) step: T,
-    pub(crate) target: T,
+    fn apply<F: Force<T>, D: Dispatch>(&mut self, of: &mut Widened<'_, '_, T, F, D>);
 }
 
 /// D⁻¹, which lies in the work.
@@ -134,12 +121,65 @@ pub(crate) struct Diagonal;
 
 impl<T: Real> Preconditioner<T> for Diagonal {
     #[inline(always)]
-    fn sweep(&mut self, to: Sweep<'_, '_, T>) -> (T, T) {
-        sweep::sweep(to.layout, to.work, to.weight, to.step)
+    fn iterate<F: Force<T>, D: Dispatch>(
+        &mut self,
+        of: &mut Widened<'_, '_, T, F, D>,
+        target: T,
+        max_iterations: u32,
+        iterations: &mut u32,
+    ) -> bool {
+        let Widened { layout, way, front, work, system, dispatch, .. } = of;
+        dispatch.run(
+            #[inline(always)]
+            || {
+                for at in layout.tiles() {
+                    for planes in [&mut work.p, &mut work.y] {
+                        planes.store(at, [all(T::ZERO); 3]);
+                    }
+                }
+                // The first sweep has no step to make: it finds z.
+                let (mut step, mut rz) = (T::ZERO, T::ZERO);
+                loop {
+                    let (beta, next) = sweep::sweep(layout, work, front.mu, step);
+                    if !(T::HALF * beta > target) || *iterations >= max_iterations {
+                        return false;
+                    }
+                    if !(next > T::ZERO) {
+                        return true;
+                    }
+                    sweep::direction(layout, work, if rz > T::ZERO { next / rz } else { T::ZERO });
+                    let Iterates { p, y, .. } = &mut *work;
+                    let (hessians, inertia) = (&*front.hessians, &*front.inertia);
+                    let mut form = product::over_runs(Matrix { layout, way: *way, hessians, inertia }, p, y);
+                    each_point(
+                        system,
+                        way,
+                        #[inline(always)]
+                        |at, h| {
+                            let (product, energy) = h.mul_and_form(p.row(at));
+                            y.put(at, vec3::add(y.row(at), product));
+                            form.add(at, energy);
+                        },
+                    );
+                    let curvature = form.sum();
+                    if !(curvature > T::ZERO) {
+                        return true;
+                    }
+                    step = next / curvature;
+                    rz = next;
+                    *iterations += 1;
+                }
+            },
+        )
     }
+
     #[inline(always)]
-    fn apply(&mut self, to: Sweep<'_, '_, T>) {
-        sweep::precondition(to.layout, to.work);
+    fn apply<F: Force<T>, D: Dispatch>(&mut self, of: &mut Widened<'_, '_, T, F, D>) {
+        let Widened { layout, work, dispatch, .. } = of;
+        dispatch.run(
+            #[inline(always)]
+            || sweep::precondition(layout, work),
+        );
     }
 }
 
@@ -187,7 +227,7 @@ fn residual<T: Real, F: Force<T>>(
 
 impl<T: Real, F: Force<T>, D: Dispatch, P: Preconditioner<T>> pcg::Iterates<T> for Lanes<'_, '_, T, F, D, P> {
     fn start(&mut self) -> bool {
-        let Self { layout, front, work, dispatch, .. } = self;
+        let Widened { layout, front, work, dispatch, .. } = &mut self.of;
         dispatch.run(
             #[inline(always)]
             || {
@@ -218,7 +258,7 @@ impl<T: Real, F: Force<T>, D: Dispatch, P: Preconditioner<T>> pcg::Iterates<T> f
     }
 
     fn beta(&mut self) -> T {
-        let Self { layout, front, work, dispatch, .. } = self;
+        let Widened { layout, front, work, dispatch, .. } = &mut self.of;
         dispatch.run(
             #[inline(always)]
             || bound::weighted(layout, &work.r, front.mu),
@@ -226,7 +266,7 @@ impl<T: Real, F: Force<T>, D: Dispatch, P: Preconditioner<T>> pcg::Iterates<T> f
     }
 
     fn check(&mut self, free: bool) -> T {
-        let Self { layout, way, front, work, system, dispatch, .. } = self;
+        let Widened { layout, way, front, work, system, dispatch, .. } = &mut self.of;
         let Front { b, inertia, mu, hessians, .. } = front;
         dispatch.run(
             #[inline(always)]
@@ -242,12 +282,12 @@ impl<T: Real, F: Force<T>, D: Dispatch, P: Preconditioner<T>> pcg::Iterates<T> f
     }
 
     fn rounding(&mut self) -> T {
-        bound::weighted(self.layout, &self.work.p, self.front.mu)
+        bound::weighted(self.of.layout, &self.of.work.p, self.of.front.mu)
     }
 
     #[cold]
     fn attainable(&mut self, updates: u32) -> T {
-        let Self { layout, way, front, work, system, .. } = self;
+        let Widened { layout, way, front, work, system, .. } = &mut self.of;
         let Iterates { x, p, y, .. } = work;
         let (hessians, inertia) = (&*front.hessians, &*front.inertia);
         bound::attainable(Matrix { layout, way: *way, hessians, inertia }, x, y);
@@ -266,55 +306,11 @@ impl<T: Real, F: Force<T>, D: Dispatch, P: Preconditioner<T>> pcg::Iterates<T> f
     }
 
     fn iterate(&mut self, target: T, max_iterations: u32, iterations: &mut u32) -> bool {
-        let Self { layout, way, front, work, system, dispatch, preconditioner } = self;
-        dispatch.run(
-            #[inline(always)]
-            || {
-                for at in layout.tiles() {
-                    for planes in [&mut work.p, &mut work.y] {
-                        planes.store(at, [all(T::ZERO); 3]);
-                    }
-                }
-                // The first sweep has no step to make: it finds z.
-                let (mut step, mut rz) = (T::ZERO, T::ZERO);
-                loop {
-                    let rows = system.matrix.rows.particle;
-                    let to = Sweep { layout, way: *way, work, weight: front.mu, rows, step, target };
-                    let (beta, next) = preconditioner.sweep(to);
-                    if !(T::HALF * beta > target) || *iterations >= max_iterations {
-                        return false;
-                    }
-                    if !(next > T::ZERO) {
-                        return true;
-                    }
-                    sweep::direction(layout, work, if rz > T::ZERO { next / rz } else { T::ZERO });
-                    let Iterates { p, y, .. } = &mut *work;
-                    let (hessians, inertia) = (&*front.hessians, &*front.inertia);
-                    let mut form = product::over_runs(Matrix { layout, way: *way, hessians, inertia }, p, y);
-                    each_point(
-                        system,
-                        way,
-                        #[inline(always)]
-                        |at, h| {
-                            let (product, energy) = h.mul_and_form(p.row(at));
-                            y.put(at, vec3::add(y.row(at), product));
-                            form.add(at, energy);
-                        },
-                    );
-                    let curvature = form.sum();
-                    if !(curvature > T::ZERO) {
-                        return true;
-                    }
-                    step = next / curvature;
-                    rz = next;
-                    *iterations += 1;
-                }
-            },
-        )
+        self.preconditioner.iterate(&mut self.of, target, max_iterations, iterations)
     }
 
     fn upper(&mut self) -> T {
-        let Self { layout, front, work, dispatch, .. } = self;
+        let Widened { layout, front, work, dispatch, .. } = &mut self.of;
         dispatch.run(
             #[inline(always)]
             || bound::upper(layout, &work.r, &work.p, front.mu),
@@ -322,14 +318,12 @@ impl<T: Real, F: Force<T>, D: Dispatch, P: Preconditioner<T>> pcg::Iterates<T> f
     }
 
     fn lower(&mut self) -> T {
-        let Self { layout, way, front, work, system, dispatch, preconditioner } = self;
+        self.preconditioner.apply(&mut self.of);
+        let Widened { layout, way, front, work, system, dispatch, .. } = &mut self.of;
         let Front { b, inertia, mu, hessians, .. } = front;
         dispatch.run(
             #[inline(always)]
             || {
-                let (step, target) = (T::ZERO, T::ZERO);
-                let rows = system.matrix.rows.particle;
-                preconditioner.apply(Sweep { layout, way: *way, work, weight: mu, rows, step, target });
                 let Iterates { r, p, y, .. } = work;
                 let of_r = bound::products(layout, r, p, y);
                 // t = r − A z into b, its δ into p.

@@ -106,23 +106,15 @@ pub(crate) fn sweep<T: Real>(layout: &Layout, work: &mut Iterates<'_, T>, weight
     (Lanes::of(beta.0).sum(), Lanes::of(rz.0).sum())
 }
 
-/// x += a p, r −= a y. Answers Σ|rᵢ|²/μᵢ and the largest component of r.
+/// The largest component.
 #[inline(always)]
-pub(crate) fn update<T: Real>(layout: &Layout, work: &mut Iterates<'_, T>, weight: &[T], a: T) -> (T, T) {
-    let (mut beta, mut most) = (all(T::ZERO), all(T::ZERO));
-    let (plus, minus) = (all(a), all(-a));
-    let Iterates { x, r, p, y, .. } = work;
-    let moved = vectors_mut(layout, x).zip(vectors(layout, p));
-    let left = vectors_mut(layout, r).zip(vectors(layout, y));
-    for (((x, p), (r, y)), weight) in moved.zip(left).zip(scalars(layout, weight)) {
-        let next = vec3::add_scaled(get(&x), plus, p);
-        put(x, next);
-        let residual = vec3::add_scaled(get(&r), minus, y);
-        put(r, residual);
-        beta = beta + square(residual, weight);
-        most = largest(most, residual);
-    }
-    (Lanes::of(beta.0).sum(), most.0.iter().fold(T::ZERO, |most, x| larger(most, *x)))
+pub(crate) fn most<T: Real>(layout: &Layout, r: &Planes<'_, T>) -> T {
+    let most = vectors(layout, r).fold(
+        all(T::ZERO),
+        #[inline(always)]
+        |most, r| largest(most, r),
+    );
+    most.0.iter().fold(T::ZERO, |most, x| larger(most, *x))
 }
 
 #[inline(always)]
@@ -131,22 +123,12 @@ fn largest<T: Real>(most: Eight<T>, [a, b, c]: Vec3<Eight<T>>) -> Eight<T> {
 }
 
 #[inline(always)]
-fn larger_lanes<T: Real>(most: Eight<T>, a: Eight<T>) -> Eight<T> {
+pub(crate) fn larger_lanes<T: Real>(most: Eight<T>, a: Eight<T>) -> Eight<T> {
     most.zip(
         a,
         #[inline(always)]
         |most, a| if most < a { a } else { most },
     )
-}
-
-/// rᵀz, z being in y.
-#[inline(always)]
-pub(crate) fn dot<T: Real>(layout: &Layout, work: &Iterates<'_, T>) -> T {
-    let mut rz = all(T::ZERO);
-    for (r, z) in vectors(layout, &work.r).zip(vectors(layout, &work.y)) {
-        rz = rz + vec3::dot(r, z);
-    }
-    Lanes::of(rz.0).sum()
 }
 
 /// y = z = D⁻¹r

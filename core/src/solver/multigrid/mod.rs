@@ -18,8 +18,10 @@ mod diagonal;
 mod entries;
 mod fingerprint;
 mod galerkin;
+mod inner;
 mod level;
 mod matching;
+mod outer;
 mod planes;
 mod preconditioner;
 mod product;
@@ -36,7 +38,7 @@ use crate::error::StepError;
 use crate::force::Force;
 use crate::real::Real;
 use crate::report::Solve;
-use crate::solver::{Problem, Solver, Stop, around, pcg};
+use crate::solver::{Problem, Solver, Stop, pcg};
 use crate::system::System;
 use crate::vec3::Vec3;
 use crate::wide::{Dispatch, Portable, Preconditions, Widened};
@@ -148,7 +150,7 @@ impl<N: AsMut<[f32]>, W: AsMut<[u32]>, D: Dispatch> Multigrid<N, W, D> {
     ) -> Result<T, StepError> {
         let mut prepared = Preconditioner::empty(self.dispatch);
         self.prepare(system, &mut prepared)?;
-        Ok(prepared.apply(r, around::largest(r), z))
+        Ok(prepared.apply(r, z))
     }
 
     /// Visits all levels of a system's hierarchy, the finest first: its blocks as [`System::blocks`] does, divided by a

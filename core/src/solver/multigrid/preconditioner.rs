@@ -1,26 +1,24 @@
-//! PCG around the cycle: the iterations of [`crate::solver::pcg`] with z = B r. The cycle sees r divided by its largest
-//! component, since f32 would lose a small one, and A divided by σ.
+//! The hierarchy as a preconditioner. A cycle sees r divided by its largest component, since f32 would lose a small one, and A
+//! divided by σ.
 
 use super::LevelPart;
 use super::cycle::Hierarchy;
 use super::dense::Dense;
+use super::inner::{self, Inner, Outer, Rows};
 use super::level::Level;
+use super::outer::{InLists, InVectors};
 use super::record::{Shape, skip_record};
 use super::sizes::{DENSE, LEVELS, UNKNOWNS};
-use super::tile::WIDTH;
 use super::words::take;
 use crate::force::Force;
 use crate::lanes::Lanes;
 use crate::parts::Vectors;
 use crate::real::Real;
-use crate::solver::around;
 use crate::solver::pcg::Iteration;
 use crate::sym3::Sym3;
 use crate::system::System;
 use crate::vec3::{self, Vec3};
-use crate::wide::neighbours::Way;
-use crate::wide::solve::Sweep;
-use crate::wide::work::Iterates;
+use crate::wide::solve::Widened;
 use crate::wide::{self, Dispatch};
 
 /// The hierarchy with this step's numbers.
@@ -28,6 +26,7 @@ pub(super) struct Preconditioner<'a, T, D> {
     /// 1/σ
     scale: T,
     hierarchy: Hierarchy<'a>,
+    inner: Inner<'a>,
     dispatch: D,
 }
 
@@ -38,7 +37,8 @@ impl<'a, T: Real, D: Dispatch> Preconditioner<'a, T, D> {
     pub(super) fn empty(dispatch: D) -> Self {
         let dense = Dense::new(&mut [], 0);
         let levels = [const { None }; LEVELS];
-        Self { scale: T::ZERO, hierarchy: Hierarchy { levels, count: 0, dense }, dispatch }
+        let hierarchy = Hierarchy { levels, count: 0, dense };
+        Self { scale: T::ZERO, hierarchy, inner: Inner::none(), dispatch }
     }
 
     /// All levels with the system's numbers; `None` if there is too little room.
@@ -56,6 +56,8 @@ impl<'a, T: Real, D: Dispatch> Preconditioner<'a, T, D> {
         *count = shape.levels;
         let coarsest = shape.size.get(shape.levels.checked_sub(1)?)?.rows;
         *dense = Dense::new(take(&mut pool, UNKNOWNS * UNKNOWNS)?, coarsest);
+        let [finest, ..] = shape.size;
+        self.inner = Inner::carve(&mut pool, finest.rows)?;
         let mut finer: Option<&mut Level<'_>> = None;
         let (scale, dispatch) = (self.scale, self.dispatch);
         for (level, size) in levels.iter_mut().zip(&shape.size).take(shape.levels) {
@@ -76,147 +78,39 @@ impl<'a, T: Real, D: Dispatch> Preconditioner<'a, T, D> {
         Some(())
     }
 
-    /// z = B r, `most` the largest component of r; answers rᵀz.
-    #[inline(never)]
-    pub(super) fn apply(&mut self, r: &[Vec3<T>], most: T, z: &mut [Vec3<T>]) -> T {
-        if !self.cycle(r.iter().copied(), most) {
-            z.fill([T::ZERO; 3]);
-            return T::ZERO;
+    /// y = B r
+    #[inline(always)]
+    fn cycle(&mut self, rows: &mut impl Rows<T>) {
+        let most = rows.most();
+        let (down, up) = (T::ONE / most, most * self.scale);
+        let Some(Some(finest)) = self.hierarchy.levels.first_mut() else { return };
+        if !(most > T::ZERO && down.is_finite() && up.is_finite()) {
+            finest.x.clear();
+            return rows.put(T::ONE, &finest.x);
         }
+        rows.residual(down, &mut finest.r);
+        self.hierarchy.cycle(self.dispatch);
+        if let Some(Some(finest)) = self.hierarchy.levels.first() {
+            rows.put(up, &finest.x);
+        }
+    }
+
+    /// z = B r; answers rᵀz.
+    #[inline(never)]
+    pub(super) fn apply(&mut self, r: &[Vec3<T>], z: &mut [Vec3<T>]) -> T {
+        self.cycle(&mut InLists { r, y: z });
         let mut product = Lanes::new();
-        for (i, ((z, r), solved)) in z.iter_mut().zip(r).zip(self.solved(most)).enumerate() {
-            *z = solved;
+        for (i, (r, z)) in r.iter().zip(z).enumerate() {
             product.add(i, vec3::dot(*r, *z));
         }
         product.sum()
     }
 
-    /// A cycle for r, whose largest component is `most`; answers whether there is one: not if r is 0 or not finite.
     #[inline(always)]
-    fn cycle(&mut self, r: impl Iterator<Item = Vec3<T>>, most: T) -> bool {
-        let (down, up) = (T::ONE / most, most * self.scale);
-        let Some(Some(finest)) = self.hierarchy.levels.first_mut() else { return false };
-        if !(most > T::ZERO && down.is_finite() && up.is_finite()) {
-            return false;
-        }
-        let [x, y, z] = &mut finest.r.0;
-        let [x, y, z] = [rows_mut(x), rows_mut(y), rows_mut(z)];
-        for (((x, y), z), [a, b, c]) in x.iter_mut().zip(y).zip(z).zip(r) {
-            *x = (down * a).to_f64() as f32;
-            *y = (down * b).to_f64() as f32;
-            *z = (down * c).to_f64() as f32;
-        }
-        self.hierarchy.cycle(self.dispatch);
-        true
+    fn iterate(&mut self, outer: &mut impl Outer<T>, until: (T, u32), iterations: &mut u32) -> bool {
+        let Self { scale, hierarchy, inner, dispatch } = self;
+        inner::iterate((hierarchy, inner), outer, *scale, until, iterations, *dispatch)
     }
-
-    /// What it found.
-    #[inline(always)]
-    fn solved(&self, most: T) -> impl Iterator<Item = Vec3<T>> {
-        let up = most * self.scale;
-        let finest = self.hierarchy.levels.first().and_then(|level| level.as_ref());
-        let [x, y, z] = finest.map_or([&[][..]; 3], |level| {
-            let [x, y, z] = &level.x.0;
-            [rows_of(x), rows_of(y), rows_of(z)]
-        });
-        x.iter().zip(y).zip(z).map(move |((x, y), z)| {
-            let of = |x: f32| up * T::from_f64(f64::from(x));
-            [of(*x), of(*y), of(*z)]
-        })
-    }
-}
-
-/// A plane from its first row on.
-#[inline(always)]
-fn rows_of(plane: &[f32]) -> &[f32] {
-    plane.get(WIDTH..).unwrap_or_default()
-}
-
-#[inline(always)]
-fn rows_mut(plane: &mut [f32]) -> &mut [f32] {
-    plane.get_mut(WIDTH..).unwrap_or_default()
-}
-
-impl<T: Real, D: Dispatch> wide::solve::Preconditioner<T> for Preconditioner<'_, T, D> {
-    #[inline(always)]
-    fn sweep(&mut self, to: Sweep<'_, '_, T>) -> (T, T) {
-        let (beta, most) = wide::sweep::update(to.layout, to.work, to.weight, to.step);
-        if !(T::HALF * beta > to.target) {
-            return (beta, T::ZERO);
-        }
-        self.in_lanes(to.way, to.work, to.rows, most);
-        (beta, wide::sweep::dot(to.layout, to.work))
-    }
-
-    #[inline(always)]
-    fn apply(&mut self, to: Sweep<'_, '_, T>) {
-        // Where nothing was iterated, y still holds what assembly left: a product with z must find zeros where there is no row.
-        for at in to.layout.tiles() {
-            to.work.y.store(at, [wide::eight::all(T::ZERO); 3]);
-        }
-        let most = wide::sweep::update(to.layout, to.work, to.weight, T::ZERO).1;
-        self.in_lanes(to.way, to.work, to.rows, most);
-    }
-}
-
-impl<T: Real, D: Dispatch> Preconditioner<'_, T, D> {
-    /// y = B r in planes of places, at those of the rows.
-    #[inline(never)]
-    fn in_lanes(&mut self, way: Way<'_>, work: &mut Iterates<'_, T>, rows: &[u32], most: T) {
-        let Iterates { r, y, .. } = work;
-        let (down, up) = (T::ONE / most, most * self.scale);
-        let solves = most > T::ZERO && down.is_finite() && up.is_finite();
-        if solves && let Some(Some(finest)) = self.hierarchy.levels.first_mut() {
-            each_stretch(way, rows, |row, place, n| {
-                for (to, from) in finest.r.0.iter_mut().zip(&r.0) {
-                    for (to, from) in part_mut(to, row + WIDTH, n).iter_mut().zip(part(from, place, n)) {
-                        *to = (down * *from).to_f64() as f32;
-                    }
-                }
-            });
-            self.hierarchy.cycle(self.dispatch);
-        }
-        let finest = self.hierarchy.levels.first().and_then(|level| level.as_ref()).filter(|_| solves);
-        each_stretch(way, rows, |row, place, n| {
-            for (c, to) in y.0.iter_mut().enumerate() {
-                let to = part_mut(to, place, n);
-                let Some(from) = finest.and_then(|level| level.x.0.get(c)) else {
-                    to.fill(T::ZERO);
-                    continue;
-                };
-                for (to, from) in to.iter_mut().zip(part(from, row + WIDTH, n)) {
-                    *to = up * T::from_f64(f64::from(*from));
-                }
-            }
-        });
-    }
-}
-
-/// Rows whose places follow one another: visits the first row, its place, and how many there are.
-#[inline(always)]
-fn each_stretch(way: Way<'_>, rows: &[u32], mut visit: impl FnMut(usize, usize, usize)) {
-    let list = match &way {
-        Way::Runs(_) => rows,
-        Way::Slots(slots) => slots.places,
-    };
-    let (mut row, mut rest) = (0, list);
-    while let Some(first) = rest.first() {
-        let together = rest.iter().zip(rest.iter().skip(1)).take_while(|(a, b)| b.wrapping_sub(**a) == 1);
-        let n = together.count() + 1;
-        visit(row, way.place(row, *first), n);
-        row += n;
-        rest = rest.get(n..).unwrap_or_default();
-    }
-}
-
-#[inline(always)]
-fn part<X>(plane: &[X], from: usize, n: usize) -> &[X] {
-    plane.get(from..from.saturating_add(n)).unwrap_or_default()
-}
-
-#[inline(always)]
-fn part_mut<X>(plane: &mut [X], from: usize, n: usize) -> &mut [X] {
-    plane.get_mut(from..from.saturating_add(n)).unwrap_or_default()
 }
 
 impl<T: Real, D> Preconditioner<'_, T, D> {
@@ -249,10 +143,28 @@ impl<T: Real, D: Dispatch> Iteration<T> for Preconditioner<'_, T, D> {
         max_iterations: u32,
         iterations: &mut u32,
     ) -> bool {
-        around::iterate(system, v, target, max_iterations, iterations, |r, most, z| self.apply(r, most, z))
+        self.iterate(&mut InVectors { system, v }, (target, max_iterations), iterations)
     }
 
     fn precondition<F: Force<T>>(&mut self, _: &System<'_, T, F>, v: &mut Vectors<'_, T>) {
-        self.apply(v.r, around::largest(v.r), v.y);
+        self.cycle(&mut InLists { r: v.r, y: v.y });
+    }
+}
+
+impl<T: Real, D: Dispatch> wide::solve::Preconditioner<T> for Preconditioner<'_, T, D> {
+    #[inline(never)]
+    fn iterate<F: Force<T>, E: Dispatch>(
+        &mut self,
+        of: &mut Widened<'_, '_, T, F, E>,
+        target: T,
+        max_iterations: u32,
+        iterations: &mut u32,
+    ) -> bool {
+        self.iterate(of, (target, max_iterations), iterations)
+    }
+
+    #[inline(never)]
+    fn apply<F: Force<T>, E: Dispatch>(&mut self, of: &mut Widened<'_, '_, T, F, E>) {
+        self.cycle(of);
     }
 }

@@ -8,33 +8,30 @@
 //! at a line of the cache (else 2.3 µs), and that one question does for a whole window of d.
 
 use super::block::Kind;
-use super::level::{Level, tiles};
+use super::level::tiles;
 use super::planes::{Planes, Windows, cut, read, write};
 use super::strips::Strips;
-use super::tile::{WIDTH, add3, scale, sub3};
+use super::tile::{Tile6, WIDTH, add3, scale, sub3};
 use crate::sym3::Sym3;
 use crate::vec3;
 
-impl Level<'_> {
-    /// What loose edges do to all rows.
-    pub(super) fn subtract_loose(&mut self) {
-        let [a, b] = &self.pattern.loose;
-        let ends = a.as_chunks::<WIDTH>().0.iter().zip(b.as_chunks::<WIDTH>().0);
-        let [d, _] = &self.d;
-        for (tile, (a, b)) in self.loose.iter().zip(ends) {
-            let mut force = [[0.0; 3]; WIDTH];
-            for (force, (a, b)) in force.iter_mut().zip(a.iter().zip(b)) {
-                *force = vec3::sub(d.at(*a as usize), d.at(*b as usize));
-            }
-            let [xx, yy, zz, xy, xz, yz] = tile;
-            let blocks = xx.iter().zip(yy).zip(zz).zip(xy.iter().zip(xz).zip(yz));
-            for (force, (((xx, yy), zz), ((xy, xz), yz))) in force.iter_mut().zip(blocks) {
-                *force = Sym3([*xx, *yy, *zz, *xy, *xz, *yz]).mul(*force);
-            }
-            for (force, (a, b)) in force.iter().zip(a.iter().zip(b)) {
-                self.r.add(*a as usize, vec3::scale(-1.0, *force));
-                self.r.add(*b as usize, *force);
-            }
+/// What loose edges do to all rows.
+#[inline(always)]
+pub(super) fn subtract_loose([a, b]: &[&mut [u32]; 2], blocks: &[Tile6], d: &Planes<'_>, r: &mut Planes<'_>) {
+    let ends = a.as_chunks::<WIDTH>().0.iter().zip(b.as_chunks::<WIDTH>().0);
+    for (tile, (a, b)) in blocks.iter().zip(ends) {
+        let mut force = [[0.0; 3]; WIDTH];
+        for (force, (a, b)) in force.iter_mut().zip(a.iter().zip(b)) {
+            *force = vec3::sub(d.at(*a as usize), d.at(*b as usize));
+        }
+        let [xx, yy, zz, xy, xz, yz] = tile;
+        let blocks = xx.iter().zip(yy).zip(zz).zip(xy.iter().zip(xz).zip(yz));
+        for (force, (((xx, yy), zz), ((xy, xz), yz))) in force.iter_mut().zip(blocks) {
+            *force = Sym3([*xx, *yy, *zz, *xy, *xz, *yz]).mul(*force);
+        }
+        for (force, (a, b)) in force.iter().zip(a.iter().zip(b)) {
+            r.add(*a as usize, vec3::scale(-1.0, *force));
+            r.add(*b as usize, *force);
         }
     }
 }

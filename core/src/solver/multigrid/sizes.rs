@@ -2,9 +2,9 @@
 //! coarsest then.
 
 use super::block::FULL;
-use super::level;
 use super::record::RECORD;
 use super::tile::WIDTH;
+use super::{inner, level};
 
 /// At most so many levels.
 pub(super) const LEVELS: usize = 7;
@@ -63,7 +63,7 @@ pub(super) const fn words_worked_in(rows: usize, springs: usize) -> usize {
 pub(super) const fn numbers(rows: usize, springs: usize) -> usize {
     // Rows of all levels, and what each level has once and to fill its last tile up.
     let once = (most_levels(rows) - 1) * level::numbers(WIDTH - 1);
-    let levels = level::numbers(most_rows(rows)) + once + most_numbers(springs);
+    let levels = level::numbers(most_rows(rows)) + once + most_numbers(springs) + inner::numbers(rows);
     let weights = rows + 2 * springs;
     UNKNOWNS * UNKNOWNS + if levels > weights { levels } else { weights }
 }

@@ -6,7 +6,7 @@
 use super::block::{Full, Kind, Tied};
 use super::level::Level;
 use super::planes::{Planes, read, write};
-use super::product::{subtract, subtract_held};
+use super::product::{subtract, subtract_held, subtract_loose};
 use super::tile::{Tile6, WIDTH, add3, scale, symmetric};
 use super::transfer::{gather, scatter};
 use crate::wide::Dispatch;
@@ -47,7 +47,8 @@ impl Level<'_> {
         } else {
             for stage in stages {
                 if matches!(stage, Stage::Smooth(..) | Stage::Restrict) {
-                    self.subtract_loose();
+                    let [d, _] = &self.d;
+                    subtract_loose(&self.pattern.loose, self.loose, d, &mut self.r);
                 }
                 self.together(x, r, core::slice::from_ref(stage), dispatch);
             }
