@@ -12,7 +12,8 @@ const H: f64 = 1.0 / 60.0;
 fn nets() -> Vec<SceneData> {
     let mut heavy = generate::cloth(12);
     heavy.mass.iter_mut().enumerate().for_each(|(i, m)| *m *= [1.0, 1e3][i % 2]);
-    let nets = [generate::cloth(24), heavy, generate::lattice(5, 6, 7), generate::blob(4, 1), generate::chain(70)];
+    let nets =
+        [generate::cloth(24), heavy, generate::lattice(5, 6, 7), generate::blob(4, 1), generate::chain(70)];
     let moved = |mut data: SceneData| {
         let (mut scene, mut forces) = (build::scene::<f64>(&data), Forces::<f64>::new(&data));
         let mut euler = forces.euler(H);
@@ -69,7 +70,8 @@ fn iterations_in_f32_are_as_many_as_in_f64_and_where_many_digits_are_asked_for_f
 fn the_floor<T: Real>(tolerance: f64) {
     for data in nets() {
         let (mut scene, mut forces) = (build::scene::<T>(&data), Forces::<T>::new(&data));
-        let mut euler = forces.euler(T::from_f64(H)).tolerance(T::from_f64(tolerance)).solver(multigrid(&data));
+        let mut euler =
+            forces.euler(T::from_f64(H)).tolerance(T::from_f64(tolerance)).solver(multigrid(&data));
         let report = scene.step(&mut euler).unwrap();
         println!("{report:?}");
         assert!(report.at_floor > 0 && report.capped + report.stalled == 0, "{report:?}");

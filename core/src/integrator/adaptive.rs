@@ -193,6 +193,8 @@ impl<I: Embedded<T>, T: Real> Adaptive<I, T> {
 impl<I: Embedded<T>, T: Real> Adaptive<I, T> {
     /// One attempt at a step where the scene is, which is not taken: the next begins with the length that its error asks for
     /// ([`Probed::dt`]), at most twenty times more or less. A few of them find how long a step may be, for choosing between methods.
+    /// Not always: where the error is no power of the step, as at rest, they may go on for ever between two lengths; so bound their
+    /// number.
     ///
     /// # Errors
     /// [`StepError`]; the scene has not changed. After [`StepError::NotFinite`] the next attempt is twenty times shorter.

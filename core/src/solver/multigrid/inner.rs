@@ -89,17 +89,18 @@ pub(super) fn iterate<T: Real>(
 ) -> bool {
     let (most, heaviest) = (outer.most(), outer.heaviest());
     let (down, up, lighter) = (T::ONE / most, most * scale, T::ONE / heaviest);
-    // ½ Σ|rᵢ|²/μᵢ of what is 1 here.
-    let unit = T::HALF * (most * heaviest) * most;
-    if !(unit > T::ZERO && unit.is_finite() && down.is_finite() && up.is_finite() && lighter.is_finite()) {
+    if !(most > T::ZERO && down.is_finite() && up.is_finite() && lighter.is_finite()) {
         return true;
     }
+    // ½ Σ|rᵢ|²/μᵢ of what is 1 here; where that is below or beyond the numbers, no target is known and FALL alone ends a group.
+    let unit = T::HALF * (most * heaviest) * most;
+    let known = unit > T::ZERO && unit.is_finite();
+    let target = if known { (target / unit).to_f64() as f32 } else { 0.0 };
     // Behind the last row a tile has zeros.
     inner.weight.fill(0.0);
     outer.weights(lighter, inner.weight);
     inner.r.clear();
     inner.p.clear();
-    let target = (target / unit).to_f64() as f32;
     let (mut rz, mut before) = (0.0, f32::INFINITY);
     loop {
         outer.residual(down, &mut inner.r);
