@@ -12,6 +12,7 @@ mod chains_in_lanes;
 mod claims;
 mod coincident;
 mod counters;
+mod damaged;
 mod damping;
 mod direct;
 mod edits;
