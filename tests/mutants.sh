@@ -39,8 +39,8 @@ if [ "$(cat "$place/asked" 2>/dev/null)" != "$asked" ]; then
     git ls-files -z tests std-harness | xargs -0 cp --parents -t "$tree"
     rm -r "$tree/tests/src/bin"
     awk -v RS= -v ORS='\n\n' '!/replay/' tests/Cargo.toml | sed '/fuzz-bodies/d' >"$tree/tests/Cargo.toml"
-    # Some optimization: what lives is asked of every test.
-    (cd "$tree" && RUSTFLAGS="--cap-lints warn" CARGO_PROFILE_DEV_DEBUG=false CARGO_PROFILE_DEV_OPT_LEVEL=1 CARGO_INCREMENTAL=0 \
+    # Nothing of the workspace is optimized: with all mutants in it that takes too long.
+    (cd "$tree" && RUSTFLAGS="--cap-lints warn" CARGO_PROFILE_DEV_DEBUG=false CARGO_PROFILE_DEV_OPT_LEVEL=0 CARGO_INCREMENTAL=0 \
         cargo test -p hooke-tests --no-run --target-dir "$target/woven" 2>&1) |
         tee "$place/build" | sed -n '/Executable [a-z]*\/main.rs/s/.*(\(.*\))$/\1/p' >"$place/binaries"
     [ -s "$place/binaries" ] || { tail -n 20 "$place/build" >&2; exit 1; }
@@ -49,6 +49,8 @@ if [ "$(cat "$place/asked" 2>/dev/null)" != "$asked" ]; then
     echo "$asked" >"$place/asked"
 fi
 
+# Frames that are not optimized, with all mutants in them, are large.
+export RUST_MIN_STACK=100000000
 # The quick tests first, which notice most. A test that never ends for a mutant may also eat all memory.
 for seconds in 1 inf; do
     (cd "$tree/tests" && ulimit -v 8000000 && "$tool" judge "$place/list.json" "$place" "$seconds" "$@")

@@ -37,6 +37,7 @@ mod sleeping;
 mod snapshots;
 mod ssor;
 mod stiffness;
+mod theorem;
 mod ulps;
 mod waking;
 mod wide;
