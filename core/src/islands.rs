@@ -219,7 +219,8 @@ fn localise(list: &[[u32; 5]], other: &mut [u32]) {
     for words in list {
         let island = Island::unpack(*words);
         for far in part_mut(other, island.springs()) {
-            *far -= words[0];
+            // An end that a damaged buffer says is no particle is no slot either, nor any place that a slot could have.
+            *far = far.wrapping_sub(words[0]);
         }
     }
 }

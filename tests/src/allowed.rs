@@ -109,6 +109,13 @@ pub const MOMENTUM_OF_METHODS: f64 = 8.0;
 pub const ANGULAR_MOMENTUM: f64 = 32.0;
 /// One tight step of a gentle scene against a dense formula, m and m/s (measured: at most 5.2e-14; margin 16).
 pub const DENSE_STEP: f64 = 8e-13;
+/// A length of a step against a power of J/E, units of u, up to seven roots in a row and a product of each: each root halves what came
+/// before and adds u, products and quotients add u, `powf` two (derived: below 16).
+pub const ROOTS: f64 = 16.0;
+/// A bound of a solve against the theorem's closed form where nothing rounds but the bound's own arithmetic, units of u of f32
+/// (measured: at most 5.5, of a lower bound below the smallest normal number, else 3.0; twofold). The margins that it is to show are
+/// 38 and more.
+pub const THEOREM: f64 = 11.0;
 /// Relative difference of an error's energy between 208 and 416 bits: the pivots lose κ·n·2⁻²⁰⁸ and the energy, a sum of squares
 /// over pivots, as much again; κ up to 1e30 in what is generated, so below 1e-62·1e30·100 (derived). The bounds themselves are
 /// never nearer to it than 38 u of `f64`, 4e-15.
