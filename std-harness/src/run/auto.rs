@@ -47,8 +47,10 @@ pub struct Weights {
     pub slots: Iterative,
     /// Multigrid on a scene with lanes, whose levels are read in order.
     pub multigrid: Iterative,
-    /// Multigrid on any other.
+    /// Multigrid on any other that is flat, ...
     pub loose: Iterative,
+    /// ... and where particles have more springs than in a cloth: fewer of them lie in order.
+    pub solid: Iterative,
     /// ns per row of a chain that is eliminated from both ends.
     pub chain: f64,
     /// A wider band: ns per row, and per block product of the factorisation (w² of them a row).
@@ -60,19 +62,19 @@ pub struct Weights {
 }
 
 /// Taken by the command above on one core of an AMD EPYC with AVX-512, from the 17 scenes of its grid, 2 steps and 3 tolerances.
-/// Before they were taken auto had the fastest solver in 80 of 102 cases, at worst one that took 1.78 times as long, and 1.06
-/// times on average. Multigrid's on scenes with lanes are those times what its new layout takes of the old one's time on cloth:32
-/// and cloth:64, in one run: 0.65 an iteration, 0.87 the rest.
+/// With those of an earlier run auto had the fastest solver in 87 of 102 cases, at worst one that took 1.64 times as long, and 1.03
+/// times on average.
 pub const WEIGHTS: Weights = Weights {
-    jacobi: Iterative { iterations: 0.314, setup: 41.27, iteration: 4.99 },
-    wide: Iterative { iterations: 0.319, setup: 31.03, iteration: 2.15 },
-    slots: Iterative { iterations: 0.299, setup: 28.50, iteration: 2.51 },
-    multigrid: Iterative { iterations: 0.145, setup: 43.1, iteration: 7.27 },
-    loose: Iterative { iterations: 0.153, setup: 70.60, iteration: 24.26 },
-    chain: 59.9,
-    band: [326.75, 1.69],
-    ldl: [88.79, 29.49, 0.76],
-    ldl32: [110.19, 24.06, 0.31],
+    jacobi: Iterative { iterations: 0.313, setup: 32.71, iteration: 3.62 },
+    wide: Iterative { iterations: 0.318, setup: 21.83, iteration: 1.63 },
+    slots: Iterative { iterations: 0.300, setup: 22.11, iteration: 1.82 },
+    multigrid: Iterative { iterations: 0.145, setup: 31.45, iteration: 4.57 },
+    loose: Iterative { iterations: 0.171, setup: 32.00, iteration: 6.25 },
+    solid: Iterative { iterations: 0.179, setup: 63.22, iteration: 20.65 },
+    chain: 41.0,
+    band: [231.39, 1.35],
+    ldl: [70.91, 20.44, 0.42],
+    ldl32: [87.74, 17.08, 0.17],
 };
 
 /// More memory than this is not asked for a factor, bytes.
@@ -121,6 +123,22 @@ impl Case {
         (island.rows + island.springs) as f64
     }
 
+    /// More springs a particle than a cloth with both diagonals has?
+    pub fn solid(&self) -> bool {
+        let rows: usize = self.islands.iter().map(|island| island.rows).sum();
+        let springs: usize = self.islands.iter().map(|island| island.springs).sum();
+        4 * springs > 17 * rows
+    }
+
+    /// Those of multigrid's weights that are this scene's.
+    pub fn multigrid<'w>(&self, weights: &'w Weights) -> &'w Iterative {
+        match (self.lanes, self.solid()) {
+            (true, _) => &weights.multigrid,
+            (false, false) => &weights.loose,
+            (false, true) => &weights.solid,
+        }
+    }
+
     /// The work of a step's solves, ms of the machine that the weights are from; or why it cannot be.
     pub fn work(&self, method: Method) -> Result<f64, &'static str> {
         let w = &WEIGHTS;
@@ -134,10 +152,7 @@ impl Case {
         match method {
             Method::Jacobi => Ok(iterate(&w.jacobi, Self::difficulty)),
             Method::Wide => Ok(iterate(if self.lanes { &w.wide } else { &w.slots }, Self::difficulty)),
-            Method::Multigrid => {
-                let w = if self.lanes { &w.multigrid } else { &w.loose };
-                Ok(iterate(w, |island| Self::difficulty(island).sqrt()))
-            }
+            Method::Multigrid => Ok(iterate(self.multigrid(w), |island| Self::difficulty(island).sqrt())),
             Method::Ssor | Method::Ilu => Err("it has no weights"),
             Method::Banded => {
                 let bytes = |island: &Island| 72.0 * island.rows as f64 * island.half_bandwidth as f64;
