@@ -17,4 +17,5 @@ mod moving_pins;
 mod orders;
 mod pins_under_way;
 mod probes;
+mod slack;
 mod step_limits;
