@@ -6,6 +6,7 @@
 mod clamped;
 mod closed_forms;
 mod coefficients;
+mod controller;
 mod conservation;
 mod cubics;
 mod dense_step;
