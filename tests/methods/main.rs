@@ -6,13 +6,14 @@
 mod clamped;
 mod closed_forms;
 mod coefficients;
-mod controller;
 mod conservation;
+mod controller;
 mod cubics;
 mod dense_step;
 mod error_control;
 mod every_method;
 mod many_solves;
+mod merged;
 mod minimization;
 mod moving_pins;
 mod orders;
