@@ -56,3 +56,76 @@ fn an_empty_scene_steps() {
     assert_eq!((report.islands, report.iterations, report.springs_skipped), (0, 0, 0));
     assert!(report.is_certified());
 }
+
+/// A scene in buffers after some steps, with how far they are filled; edited since, or not.
+fn left_in_buffers(edited: bool) -> (SceneData, Vec<f64>, Vec<u32>, [u32; 6]) {
+    let data = generate::gentle_network(3, 12);
+    let (n, s) = (data.len(), data.springs.len());
+    let (reals, words) = SceneIn::<f64>::needs(n, s);
+    let (mut reals, mut words) = (vec![0.0; reals], vec![0; words]);
+    let mut scene = SceneIn::<f64>::in_buffers(&mut reals, &mut words, n, s).expect("just enough");
+    build::fill(&mut scene, &data).unwrap();
+    let mut forces = Forces::<f64>::new(&data);
+    for _ in 0..5 {
+        scene.step(&mut forces.euler(1.0 / 60.0)).unwrap();
+    }
+    if edited {
+        scene.pin(7).unwrap();
+        scene.break_spring(2).unwrap();
+    }
+    let counts = scene.counts();
+    (data, reals, words, counts)
+}
+
+#[test]
+fn a_scene_attached_to_its_buffers_again_goes_on_as_if_nothing_had_happened() {
+    for edited in [false, true] {
+        let (data, mut reals, mut words, counts) = left_in_buffers(edited);
+        let (n, s) = (data.len(), data.springs.len());
+        let mut stayed = build::scene::<f64>(&data);
+        let mut forces = Forces::<f64>::new(&data);
+        for _ in 0..5 {
+            stayed.step(&mut forces.euler(1.0 / 60.0)).unwrap();
+        }
+        if edited {
+            stayed.pin(7).unwrap();
+            stayed.break_spring(2).unwrap();
+        }
+        let mut again = SceneIn::<f64>::attach(&mut reals, &mut words, n, s, counts).expect("it is there");
+        assert_eq!((again.counts(), build::bits(&again)), (counts, build::bits(&stayed)));
+        for _ in 0..5 {
+            let report = stayed.step(&mut forces.euler(1.0 / 60.0)).unwrap();
+            assert_eq!(again.step(&mut forces.euler(1.0 / 60.0)), Ok(report));
+            assert_eq!(build::bits(&again), build::bits(&stayed));
+        }
+        // A step has found the islands anew, and says so.
+        assert_eq!(again.counts()[5], 1);
+    }
+    let [particles, springs, islands, free, tied, current] = left_in_buffers(false).3;
+    assert!(islands > 0 && islands < free && free < particles && tied <= springs && current == 1);
+    assert_eq!(left_in_buffers(true).3[5], 0);
+}
+
+#[test]
+fn counts_that_no_scene_has_are_refused_and_those_at_the_edge_are_not() {
+    let fits = |counts: [u32; 6]| {
+        let (data, mut reals, mut words, _) = left_in_buffers(false);
+        let (n, s) = (data.len(), data.springs.len());
+        SceneIn::<f64>::attach(&mut reals, &mut words, n, s, counts).is_some()
+    };
+    let (data, .., counts) = left_in_buffers(false);
+    let (n, s) = (data.len() as u32, data.springs.len() as u32);
+    assert!(fits(counts));
+    for (good, bad) in [
+        // Particles and springs up to the room, islands up to free particles, those up to all, tied springs up to all.
+        ([n, s, 1, n, s, 1], [n + 1, s, 1, n, s, 1]),
+        ([n, s, n, n, s, 0], [n, s + 1, n, n, s, 0]),
+        ([n, s, 3, 3, s, 1], [n, s, 4, 3, s, 1]),
+        ([4, s, 3, 4, s, 1], [4, s, 3, 5, s, 1]),
+        ([n, 6, 1, 2, 6, 1], [n, 6, 1, 2, 7, 1]),
+        ([n, s, 0, 0, 0, 1], [n, s, 0, 0, 0, 2]),
+    ] {
+        assert!(fits(good), "{good:?}");
+        assert!(!fits(bad), "{bad:?}");
+    }
+}

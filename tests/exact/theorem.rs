@@ -214,3 +214,20 @@ fn mu_is_what_pressed_springs_leave_of_the_mass_rounded_down_by_8_units_of_it() 
     // Half of what is charged more, 4u twice over, would show.
     assert!((0.5 * b * b / (data.mass[1] - 6.0 * STIFF) * factor / expected - 1.0).abs() / U > 2.0 * 1024.0);
 }
+
+/// One pressed spring, α = −3h²k, charged as 3h²k(1 + 4u): a mass of just that leaves μ = 0, and one unit more leaves something.
+#[test]
+fn a_node_whose_mu_is_exactly_0_is_not_certified_and_its_spring_is_clamped() {
+    let charge = 3.0 * STIFF as f32 * (1.0 + 2.0 * f32::EPSILON);
+    for (mass, certified, clamped) in
+        [(charge, false, 1), (charge.next_up(), true, 0), (charge.next_down(), false, 1)]
+    {
+        let mut data = SceneData { gravity: [0.0, 0.0, -8.0], ..SceneData::default() };
+        data.particle([0.0; 3], 1.0);
+        data.particle([1.0, 0.0, 0.0], f64::from(mass));
+        data.springs.push(SpringData { a: 0, b: 1, k: STIFF / (H * H), l0: 4.0, c: 0.0 });
+        data.pinned[0] = true;
+        let island = solve(&data, 1e-4, BlockJacobi);
+        assert_eq!((island.certified, island.clamped), (certified, clamped), "{mass}");
+    }
+}
