@@ -258,8 +258,8 @@ mod tests {
             ("lattice:8x8x8", 1.0 / 60.0, ["multigrid", "multigrid", "multigrid"]),
             ("spring", 0.001, ["banded", "banded", "banded"]),
             ("spring", 1.0 / 60.0, ["banded", "banded", "banded"]),
-            ("pair", 0.001, ["wide", "banded", "banded"]),
-            ("pair", 1.0 / 60.0, ["wide", "banded", "banded"]),
+            ("pair", 0.001, ["banded", "banded", "banded"]),
+            ("pair", 1.0 / 60.0, ["banded", "banded", "banded"]),
         ];
         let wrong: Vec<String> = table
             .iter()
