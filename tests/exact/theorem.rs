@@ -162,7 +162,7 @@ fn where_the_answer_is_exact_the_upper_bound_is_that_of_the_rounding_alone_and_t
             let b = (MASS * H * 8.0).abs();
             each(&data, |name, exact, _, solve| {
                 // A net that nothing holds is moved as a whole before anything else is asked.
-                if !(exact || !held) {
+                if !exact && held {
                     return;
                 }
                 let name =

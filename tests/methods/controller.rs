@@ -77,8 +77,7 @@ fn step<const ORDER: u32>(j: f64, told: &[Told]) -> (Result<(), StepError>, [f64
     assert_eq!(build::bits(&scene), before);
     let left =
         [adaptive.attained(), adaptive.made().dt, f64::from(adaptive.made().rejections), adaptive.dt()];
-    drop(adaptive);
-    (answer, left, asked.into_inner())
+    (answer, left, asked.take())
 }
 
 /// Lengths that shrink each by its factor.
