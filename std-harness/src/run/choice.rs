@@ -44,7 +44,7 @@ const FAR: f64 = 3.0;
 /// So exactness that was not asked for makes a method count as up to twice as cheap. With a hundredth instead, `verlet` keeps nets
 /// that `ros2` moves three times cheaper to the same error; with no such rule `ros2` takes over from rest, and what it has spoilt
 /// by then stays (cloth:16 at 1e-4 J: 4e-3 m instead of 4e-5 in the same time).
-const FINER: f64 = 1.0 / 16.0;
+pub const FINER: f64 = 1.0 / 16.0;
 
 /// What the steps of a scene cost.
 #[derive(Debug, Clone)]
