@@ -1,10 +1,13 @@
 //! Any sequence of calls to a scene: none panics, a refused call changes nothing, positions and velocities stay finite, pins
-//! are where they are told to be, a step's bounds are in order, and a restored scene goes on bit for bit.
+//! are where they are told to be, a step's bounds are in order, and a restored scene goes on bit for bit. Islands asleep have
+//! the bits and the report of those that are assembled at rest, whatever was called since they fell asleep.
 
-use hooke::{Fixed, MassSpring, Memory, Mixed, Real, Scene, Snapshot, Spring};
+use hooke::{
+    Fixed, MassSpring, Memory, Mixed, Real, Report, Rest, Scene, Sleeping, Snapshot, Spring, StepError,
+};
 
 use crate::bytes::Bytes;
-use crate::kernel_step::Step;
+use crate::kernel_step::{REST, Step};
 
 /// Capacities that a sequence of bytes reaches.
 const PARTICLES: usize = 12;
@@ -44,6 +47,8 @@ fn play<T: Real>(mut bytes: Bytes<'_>) {
     let mut scene = Box::new(Scene::<T, PARTICLES, SPRINGS, Mixed>::new());
     let mut snapshot = Box::new(Snapshot::<Fixed<T, PARTICLES, SPRINGS, Mixed>>::new());
     let mut saved: Option<Saved> = None;
+    let mut last: Option<Step> = None;
+    let mut nights = Nights::<T>::new();
     for _ in 0..CALLS {
         if bytes.is_empty() {
             return;
@@ -66,10 +71,13 @@ fn play<T: Real>(mut bytes: Bytes<'_>) {
                 visible(&scene) == before
             }
             call @ 0..14 => edit(call, &mut scene, &mut bytes),
-            _ => {
-                let step = Step::read(&mut bytes, INDICES);
+            call => {
+                let again = last.take().filter(|_| call == 31);
+                let step = again.unwrap_or_else(|| Step::read(&mut bytes, INDICES));
+                last = Some(step.clone());
                 let after_save = saved.as_ref().is_some_and(|s| s.next.is_none() && s.bits == before);
-                let report = step.make(&mut *scene);
+                let report =
+                    if step.rests() { nights.make(&step, &mut scene) } else { step.make(&mut *scene) };
                 let now = visible(&scene);
                 step.judge(&scene, &report, &before, &now);
                 let outcome = format!("{report:?}");
@@ -84,6 +92,38 @@ fn play<T: Real>(mut bytes: Bytes<'_>) {
         }
         let state = [scene.positions(), scene.velocities()];
         assert!(state.iter().all(|list| list.as_flattened().iter().all(|x| x.is_finite())), "finite");
+    }
+}
+
+/// A memory of what is asleep, from the first step to the last, and a twin of the scene that is never asleep.
+struct Nights<T: Real> {
+    sleeping: Sleeping<T, Vec<T>, Vec<u32>>,
+    twin: Box<Scene<T, PARTICLES, SPRINGS, Mixed>>,
+    copy: Box<Snapshot<Fixed<T, PARTICLES, SPRINGS, Mixed>>>,
+}
+
+impl<T: Real> Nights<T> {
+    fn new() -> Self {
+        let (numbers, words) = Sleeping::needs(PARTICLES, SPRINGS);
+        // What is in the memory must not matter.
+        let (numbers, words) = (vec![T::from_f64(f64::NAN); numbers], vec![u32::MAX; words]);
+        let sleeping = Sleeping::new(T::from_f64(REST), numbers, words);
+        Self { sleeping, twin: Box::new(Scene::new()), copy: Box::new(Snapshot::new()) }
+    }
+
+    /// A step that brings islands to rest, with the memory; the twin's, without it, ends the same.
+    fn make(
+        &mut self,
+        step: &Step,
+        scene: &mut Scene<T, PARTICLES, SPRINGS, Mixed>,
+    ) -> Result<Report<T>, StepError> {
+        assert!(scene.save(&mut self.copy).is_ok() && self.twin.restore(&self.copy).is_ok(), "a copy fits");
+        let awake = step.make_with(&mut *self.twin, Rest(T::from_f64(REST)));
+        let made = step.make_with(scene, &mut self.sleeping);
+        let made = made.map(|report| Report { asleep: 0, ..report });
+        assert_eq!(format!("{made:?}"), format!("{awake:?}"), "a scene asleep reports what one at rest does");
+        assert_eq!(visible(scene), visible(&self.twin), "and has its bits");
+        made
     }
 }
 

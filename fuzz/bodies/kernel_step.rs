@@ -2,11 +2,14 @@
 
 use hooke::{
     Adaptive, Drag, EnergyMomentum, Force, LinearlyImplicitEuler, MassSpring, Memory, Midpoint, Motion,
-    Newton, PointSpring, Real, Report, Rosenbrock2, Rosenbrock3, SpringDamping, StepError, SymplecticEuler,
-    Verlet,
+    Newton, PointSpring, Real, Report, Rest, Rosenbrock2, Rosenbrock3, Sleep, SpringDamping, StepError,
+    SymplecticEuler, Verlet,
 };
 
 use crate::bytes::Bytes;
+
+/// Islands with less than so many joules of motion may be brought to rest.
+pub const REST: f64 = 1e-3;
 
 /// A step, to be made as often as needed.
 #[derive(Debug, Clone)]
@@ -23,6 +26,9 @@ pub struct Step {
     /// How many vectors fewer than it needs a method gets
     short: usize,
     accuracy: f64,
+    /// Are islands brought to rest?
+    rests: bool,
+    absolute: f64,
 }
 
 impl Step {
@@ -41,11 +47,41 @@ impl Step {
         let tolerance = if on(32) { bytes.number() } else { 1e-4 };
         let iterations = if on(64) { u32::from(bytes.byte()) } else { 1000 };
         let (short, accuracy) = if on(128) { (bytes.below(4), bytes.number()) } else { (0, 1e-3) };
-        Self { method, dt, drag, damping, point, motion, tolerance, iterations, short, accuracy }
+        let rests = method == 0 && on(128);
+        // Of one that is 0, the default, nothing comes to rest that moves.
+        let absolute = if rests { accuracy.abs() } else { 0.0 };
+        Self {
+            method,
+            dt,
+            drag,
+            damping,
+            point,
+            motion,
+            tolerance,
+            iterations,
+            short,
+            accuracy,
+            rests,
+            absolute,
+        }
     }
 
-    /// Makes it.
+    /// Are islands brought to rest?
+    pub fn rests(&self) -> bool {
+        self.rests
+    }
+
+    /// Makes it, by [`Rest`] where islands are brought to rest.
     pub fn make<M: Memory>(&self, scene: &mut MassSpring<M>) -> Result<Report<M::Real>, StepError> {
+        self.make_with(scene, self.rests.then_some(Rest(M::Real::from_f64(REST))))
+    }
+
+    /// Makes it, and brings islands to rest as one says.
+    pub fn make_with<M: Memory>(
+        &self,
+        scene: &mut MassSpring<M>,
+        sleep: impl Sleep<M::Real>,
+    ) -> Result<Report<M::Real>, StepError> {
         let real = M::Real::from_f64;
         let (i, target, stiffness) = self.point;
         let n = scene.positions().len();
@@ -60,7 +96,7 @@ impl Step {
             EnergyMomentum::<f64, ()>::needs(n),
         ];
         let most = needs.into_iter().max().unwrap_or(0);
-        self.with(scene, forces, |method| {
+        self.with(scene, forces, sleep, |method| {
             let needs = if (2..6).contains(&method) { needs[method - 2] } else { most };
             // What is in the memory must not matter.
             vec![[real(f64::NAN); 3]; needs.saturating_sub(self.short)]
@@ -71,6 +107,7 @@ impl Step {
         &self,
         scene: &mut MassSpring<M>,
         forces: F,
+        sleep: impl Sleep<M::Real>,
         memory: impl Fn(usize) -> Vec<[M::Real; 3]>,
     ) -> Result<Report<M::Real>, StepError> {
         let real = M::Real::from_f64;
@@ -104,7 +141,7 @@ impl Step {
             }};
         }
         match self.method {
-            0 => step!(LinearlyImplicitEuler::new(dt)),
+            0 => step!(LinearlyImplicitEuler::new(dt).sleeping(sleep).absolute(real(self.absolute))),
             1 => step!(Midpoint::new(dt)),
             2 => step!(Rosenbrock2::new(dt, memory)),
             3 => step!(Rosenbrock3::new(dt, memory)),
