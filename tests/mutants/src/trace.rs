@@ -2,6 +2,7 @@
 
 use std::collections::BTreeSet;
 use std::fs;
+use std::io::{BufRead, BufReader};
 use std::os::unix::process::ExitStatusExt;
 use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
@@ -77,26 +78,42 @@ pub fn tests(place: &Path, most: f64) -> Result<Vec<Test>> {
 #[derive(PartialEq)]
 pub enum Ended {
     Passed,
-    Failed,
+    /// By this test
+    Failed(String),
     TimedOut,
 }
 
-/// Some tests of one binary with one mutant awake, for so many seconds of a processor.
+/// Some tests of one binary with one mutant awake, for so many seconds of a processor; up to the first that fails.
 pub fn run(binary: &Path, names: &[&str], mutant: usize, seconds: u64) -> Result<Ended> {
-    let status = Command::new("sh")
+    let mut child = Command::new("sh")
         .args(["-c", &format!("ulimit -t {seconds}; exec \"$0\" \"$@\"")])
         .arg(binary)
         .args(names)
         .args(["--exact", "--test-threads", "1"])
         .env("HOOKE_MUTANT", mutant.to_string())
         .stdin(Stdio::null())
-        .stdout(Stdio::null())
+        .stdout(Stdio::piped())
         .stderr(Stdio::null())
-        .status()?;
+        .spawn()?;
+    // A test's name is printed before it runs: if the program ends there, the last one it was.
+    let (mut name, mut failed) = (String::new(), false);
+    for word in BufReader::new(child.stdout.take().ok_or("no output")?).split(b' ') {
+        match String::from_utf8_lossy(&word?).split('\n').next() {
+            Some("FAILED") => failed = true,
+            Some(word) if word.contains("::") => name = word.to_owned(),
+            _ => continue,
+        }
+        if failed {
+            child.kill()?;
+            break;
+        }
+    }
+    let status = child.wait()?;
     // SIGXCPU, or SIGKILL after it.
     Ok(match status.signal() {
+        _ if failed => Ended::Failed(name),
         Some(24 | 9) => Ended::TimedOut,
         _ if status.success() => Ended::Passed,
-        _ => Ended::Failed,
+        _ => Ended::Failed(name),
     })
 }
