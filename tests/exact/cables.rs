@@ -80,3 +80,15 @@ fn a_cable_at_its_rest_length_is_taut_without_force() {
     scene.springs().stiffness_blocks(|_, _, _| blocks += 1);
     assert_eq!(blocks, 4);
 }
+
+#[test]
+fn springs_and_cables_are_numbered_together_as_they_are_added() {
+    let mut scene = VecScene::<f64, hooke::Mixed>::empty();
+    for x in 0..5 {
+        scene.particle([f64::from(x), 0.0, 0.0], 1.0).unwrap();
+    }
+    assert_eq!(scene.cable(0, 1, SPRING), Ok(0));
+    assert_eq!(scene.cable(1, 2, SPRING), Ok(1));
+    assert_eq!(scene.spring_with(2, 3, SPRING), Ok(2));
+    assert_eq!(scene.cable(3, 4, SPRING), Ok(3));
+}

@@ -155,3 +155,65 @@ fn a_force_that_repels_shortens_the_longest_step_of_verlet_as_one_that_attracts(
     assert_eq!(scene.step(&mut verlet).unwrap_err(), StepError::StepLimit(0));
     scene.step(&mut Verlet::new(0.01)).unwrap();
 }
+
+#[test]
+fn potential_energies_of_forces_are_those_of_all_particles_and_add_up() {
+    let mut scene = VecScene::<f64>::empty();
+    for (x, m) in [([1.0, 2.0, 0.5], 2.0), ([-4.0, 0.25, 1.0], 0.5)] {
+        scene.particle(x, m).unwrap();
+    }
+    let state = scene.state();
+    // −m g·x: −2·(0.5 − 16 + 1) = 29 of the first, −0.5·(−2 − 2 + 2) = 1 of the second.
+    let gravity = Gravity([0.5, -8.0, 2.0]);
+    assert_eq!(gravity.potential_energy(state), 30.0);
+    // ½·4·(3 − 1)² and ½·2·(2 − 0)².
+    let mut points = [
+        PointSpring::new(0, [1.0, 2.0, 3.5], 4.0).rest_length(1.0),
+        PointSpring::new(1, [-4.0, -1.75, 1.0], 2.0),
+    ];
+    let points = points.as_mut_slice();
+    assert_eq!((gravity, points).potential_energy(state), 30.0 + 8.0 + 4.0);
+    assert_eq!(Force::<f64>::potential_energy(&(Drag(1.0), SpringDamping(1.0)), state), 0.0);
+}
+
+#[test]
+fn every_point_spring_of_a_list_that_has_no_length_is_counted() {
+    for many in 1..4 {
+        let mut scene = VecScene::<f64>::empty();
+        let mut points: Vec<_> = (0..many)
+            .map(|i| {
+                scene.particle([i as f64, 0.0, 0.0], 1.0).unwrap();
+                PointSpring::new(i, [i as f64, 0.0, 0.0], 8.0).rest_length(0.5)
+            })
+            .collect();
+        let mut euler = LinearlyImplicitEuler::new(0.01).with(points.as_mut_slice());
+        assert_eq!(scene.step(&mut euler).unwrap().clamped, many as u32);
+    }
+}
+
+#[test]
+fn every_point_spring_of_a_list_that_must_be_clamped_is_and_is_counted() {
+    // Compressed to a tenth, h²k(l₀/l − 1) = 9 kg against 1.
+    for many in 1..4 {
+        let mut scene = VecScene::<f64>::empty();
+        let mut points: Vec<_> = (0..many)
+            .map(|i| {
+                scene.particle([i as f64, 0.0, 0.1], 1.0).unwrap();
+                PointSpring::new(i, [i as f64, 0.0, 0.0], 100.0).rest_length(1.0)
+            })
+            .collect();
+        let mut euler = LinearlyImplicitEuler::new(0.1).with(points.as_mut_slice());
+        let report = scene.step(&mut euler).unwrap();
+        assert_eq!((report.clamped, report.certified), (many as u32, 0));
+    }
+}
+
+#[test]
+fn a_pin_that_is_dragged_along_needs_a_reaction_against_its_drag() {
+    let mut scene = VecScene::<f64>::empty();
+    scene.particle([0.0; 3], 2.0).unwrap();
+    scene.pin(0).unwrap();
+    scene.set_pin_velocity(0, [1.0, -2.0, 4.0]).unwrap();
+    // −(−d m q̇), d = ¼.
+    assert_eq!(scene.reaction(0, &Drag(0.25)), Some([0.5, -1.0, 2.0]));
+}

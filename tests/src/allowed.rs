@@ -109,6 +109,8 @@ pub const MOMENTUM_OF_METHODS: f64 = 8.0;
 pub const ANGULAR_MOMENTUM: f64 = 32.0;
 /// One tight step of a gentle scene against a dense formula, m and m/s (measured: at most 5.2e-14; margin 16).
 pub const DENSE_STEP: f64 = 8e-13;
+/// One step of an explicit method, at most 8 substeps, against its formula, m and m/s below 30 (measured: at most 6.0e-15; margin 16).
+pub const EXPLICIT_STEP: f64 = 1e-13;
 /// A length of a step against a power of J/E, units of u, up to seven roots in a row and a product of each: each root halves what came
 /// before and adds u, products and quotients add u, `powf` two (derived: below 16).
 pub const ROOTS: f64 = 16.0;
