@@ -16,7 +16,8 @@ pub struct Published {
     pub gammas: Vec<Vec<f64>>,
     /// b
     pub b: Vec<f64>,
-    lower: Vec<f64>,
+    /// b̂
+    pub lower: Vec<f64>,
 }
 
 impl Published {

@@ -107,8 +107,12 @@ pub const MOMENTUM_OF_METHODS: f64 = 8.0;
 /// Angular momentum about the origin, units of u·(Σm|x||v| before and after + Σ impulses of the springs)
 /// (measured: at most 7.6, under energy-momentum, which ends where its equation is solved to rounding; fourfold).
 pub const ANGULAR_MOMENTUM: f64 = 32.0;
-/// One tight step of a gentle scene against a dense formula, m and m/s (measured: at most 5.2e-14; margin 16).
+/// One tight step of a gentle scene against a dense formula, m and m/s (measured: at most 5.2e-14, margin 16; under midpoint 2.5e-13, of
+/// the difference in the formula).
 pub const DENSE_STEP: f64 = 8e-13;
+/// The estimated error of such a step against a dense formula, relative: at 1 ms it is a
+/// hundred-millionth of a joule, a difference of numbers near 1 (measured: at most 5.1e-9; margin 16).
+pub const DENSE_ESTIMATE: f64 = 8e-8;
 /// One step of an explicit method, at most 8 substeps, against its formula, m and m/s below 30 (measured: at most 6.0e-15; margin 16).
 pub const EXPLICIT_STEP: f64 = 1e-13;
 /// A length of a step against a power of J/E, units of u, up to seven roots in a row and a product of each: each root halves what came
