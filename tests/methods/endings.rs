@@ -1,5 +1,7 @@
 //! How steps end that iterate on a nonlinear equation: what their report says is that equation's own residual.
 
+use hooke::solver::Problem;
+use hooke::{BlockJacobi, EnergyMomentum, Force, Newton, Solve, Solver, StepError, Stop};
 use hooke_tests::allowed;
 use hooke_tests::methods::{Method, options};
 use hooke_tests::vec_memory::VecScene;
@@ -90,5 +92,61 @@ fn as_many_linear_solves_are_made_as_the_tolerance_asks_for() {
         let absolute = hooke_tests::methods::Options { absolute: 1e3, ..options(H, 1e-10) };
         let report = method.step(&mut scene, absolute, (), &[]).unwrap();
         assert_eq!((report.iterations, report.untouched), (0, 1), "{method:?}: a kilojoule is met at once");
+    }
+}
+
+/// Notes what it is asked to stop at.
+struct Asked<'n>(&'n mut Vec<[f64; 3]>);
+
+impl Solver<f64> for Asked<'_> {
+    fn solve<F: Force<f64>>(
+        &mut self,
+        problem: Problem<'_, '_, f64, F>,
+        stop: &Stop<f64>,
+    ) -> Result<Solve<f64>, StepError> {
+        self.0.push([stop.relative, stop.absolute, f64::from(stop.max_iterations)]);
+        BlockJacobi.solve(problem, stop)
+    }
+}
+
+#[test]
+fn linear_systems_of_an_iteration_are_solved_to_a_thousandth_or_as_loosely_as_the_step_whatever_it_asks_for()
+{
+    for (relative, expected) in [(1e-12, 1e-3), (1e-3, 1e-3), (0.125, 0.125)] {
+        let (mut newton, mut energy_momentum) = (Vec::new(), Vec::new());
+        let memory = || vec![[0.0; 3]; 64];
+        macro_rules! step {
+            ($method:expr, $asked:expr) => {
+                thrown(false)
+                    .step(
+                        &mut $method
+                            .tolerance(relative)
+                            .absolute(1e-30)
+                            .max_iterations(77)
+                            .solver(Asked($asked)),
+                    )
+                    .unwrap()
+            };
+        }
+        step!(Newton::new(H, memory()), &mut newton);
+        step!(EnergyMomentum::new(H, memory()), &mut energy_momentum);
+        for asked in [newton, energy_momentum] {
+            assert!(
+                !asked.is_empty() && asked.iter().all(|asked| *asked == [expected, 0.0, 77.0]),
+                "{asked:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn a_step_of_energy_momentum_that_is_far_too_long_gives_up_without_trace_and_names_the_particle() {
+    for h in [8.0, 64.0, 1e3] {
+        let mut scene = thrown(true);
+        let before = hooke_tests::build::bits(&scene);
+        let made = Method::EnergyMomentum.step(&mut scene, options(h, 1e-10), (), &[]);
+        println!("{h} s: {made:?}");
+        assert_eq!(made, Err(StepError::NotConverged(2)));
+        assert_eq!(hooke_tests::build::bits(&scene), before);
     }
 }

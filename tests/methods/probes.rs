@@ -231,3 +231,47 @@ fn of_order_3_a_first_step_asks_for_the_eighth_root_and_the_next_divides_by_a_si
     }
     assert!(judged >= 10, "{judged}");
 }
+
+#[test]
+fn the_error_foretold_goes_with_the_fourth_or_the_sixth_power_of_the_length() {
+    // J is far above the error, or below: the next length is another one.
+    for share in [1e-3, 1e5] {
+        let near = |probed: hooke::Probed<f64>, found: f64, power: i32| {
+            let expected = found * (probed.dt / DT).powi(power);
+            let off = (probed.energy / expected - 1.0).abs();
+            assert!(probed.dt != DT && off <= 16.0 * allowed::U64, "{probed:?}, not {expected:e} J");
+        };
+        let memory = || vec![[0.0; 3]; 64];
+        let found = error(Verlet::new(1.0), &mut swinging(), DT, 1.0).energy;
+        let mut method = Adaptive::new(Verlet::new(1.0), DT, share * found);
+        near(method.probe(&mut swinging(), &[]).unwrap(), found, 4);
+        let first = error(Rosenbrock3::new(1.0, memory()), &mut swinging(), DT, 1e-12).energy;
+        let found = error(Rosenbrock3::new(1.0, memory()), &mut swinging(), DT, share * first).energy;
+        let mut method = Adaptive::new(Rosenbrock3::new(1.0, memory()), DT, share * first);
+        near(method.probe(&mut swinging(), &[]).unwrap(), found, 6);
+    }
+}
+
+#[test]
+fn a_first_length_beyond_the_limit_is_tried_at_the_limit() {
+    let ask = |dt: f64| Adaptive::new(Verlet::new(1.0), dt, 1e-3).probe(&mut swinging(), &[]).unwrap();
+    let limit = Verlet::new(1.0).longest(&mut swinging().parts());
+    assert!(limit > 0.0 && limit < 1e3);
+    assert_eq!(ask(1e3), ask(limit));
+    assert_ne!(ask(limit), ask(0.5 * limit));
+}
+
+#[test]
+fn where_no_step_is_stable_none_is_tried() {
+    // Springs whose stiffnesses have no finite sum.
+    let mut scene = VecScene::<f64>::empty();
+    for i in 0..4 {
+        scene.particle([f64::from(i), 0.0, 0.0], 1.0).unwrap();
+    }
+    for i in 1..4 {
+        scene.spring(0, i, f64::MAX).unwrap();
+    }
+    let mut method = Adaptive::new(Verlet::new(1.0), 1e-3, 1.0);
+    assert_eq!(method.probe(&mut scene, &[]).unwrap_err(), StepError::Accuracy);
+    assert_eq!(scene.step(&mut method).unwrap_err(), StepError::Accuracy);
+}
