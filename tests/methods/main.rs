@@ -21,6 +21,7 @@ mod minimization;
 mod moving_pins;
 mod orders;
 mod pins_under_way;
+mod point_springs;
 mod probes;
 mod slack;
 mod step_limits;
