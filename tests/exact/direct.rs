@@ -313,3 +313,32 @@ fn a_wrong_analysis_is_caught_by_the_certificate_whatever_word_of_it_is_wrong() 
     }
     assert!(fallbacks > 100 && fine > 100, "{fallbacks} caught, {fine} harmless");
 }
+
+#[test]
+fn one_solve_is_enough_whichever_way_a_chain_lies_in_space() {
+    for seed in 0..20 {
+        let mut random = hooke_tests::random::Random::new(seed);
+        for n in [1, 2, 3, 6, 9, 12] {
+            let mut data = SceneData::default();
+            for _ in 0..=n {
+                data.particle(random.vector(1.0), random.between(0.5, 2.0));
+            }
+            data.pinned[0] = seed % 3 != 0;
+            for i in 1..=n {
+                // Stretched, so that nothing is clamped.
+                data.spring_with(i - 1, i, random.between(100.0, 1e4), 0.01);
+            }
+            let mut forces = Forces::<f64>::new(&data);
+            let mut scene = build::scene::<f64>(&data);
+            let mut euler = forces.euler(H).tolerance(1e-10).solver(direct::banded(&data));
+            for step in 0..3 {
+                let report = scene.step(&mut euler).unwrap();
+                assert_eq!(
+                    (report.iterations, report.fallbacks),
+                    (1, 0),
+                    "seed {seed}, {n} rows, step {step}"
+                );
+            }
+        }
+    }
+}

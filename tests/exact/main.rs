@@ -4,6 +4,7 @@
 // Indices are those of the formulas.
 #![allow(clippy::needless_range_loop)]
 
+mod analysis;
 mod batch;
 mod block_ilu;
 mod cables;

@@ -93,3 +93,30 @@ fn many_solves_of_every_island_end_where_block_jacobi_ends_by_factors_that_are_k
     });
     keeps_each_islands_own("D-ILU", |data| BlockIlu::new(vec![1.0; BlockIlu::needs(data.len())]));
 }
+
+#[test]
+fn factors_that_the_first_stage_did_not_need_are_made_for_the_second() {
+    // A particle at rest but for a nanometre a second, which is met before any solve; then its pin is gone.
+    fn step(solver: impl Solver<f64>) -> (Vec<[f64; 3]>, hooke::Report<f64>) {
+        let mut data = SceneData::default();
+        for x in [0.0, 1.0, 2.0] {
+            data.particle([x, 0.0, 0.0], 1.0);
+        }
+        (data.pinned[0], data.velocity[1]) = (true, [1e-9, 0.0, 0.0]);
+        data.spring(0, 1, 100.0);
+        data.spring(1, 2, 100.0);
+        let mut scene = build::scene::<f64>(&data);
+        let motion = hooke::Motion { particle: 0, position: [0.5, 0.5, 0.0], velocity: [1.0, 0.0, 0.0] };
+        let memory = vec![[0.0; 3]; Rosenbrock2::<f64, ()>::needs(3)];
+        let mut ros2 = Rosenbrock2::new(0.1, memory).tolerance(1e-12).absolute(1e-15).solver(solver);
+        let report = scene.step_moving(&mut ros2, &[motion]).unwrap();
+        (build::positions(&scene), report)
+    }
+    let data = generate::chain(3);
+    let (plain, _) = step(BlockJacobi);
+    for (found, report) in [step(direct::banded(&data)), step(direct::sparse(&data))] {
+        assert_eq!((report.fallbacks, report.untouched), (0, 0), "{report:?}");
+        assert!(build::farthest(&found, &plain) <= 1e-9, "{found:?}, not {plain:?}");
+        assert!(found[1][0] - 1.0 > 1e-3, "it was pulled along");
+    }
+}
