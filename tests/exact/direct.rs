@@ -342,3 +342,56 @@ fn one_solve_is_enough_whichever_way_a_chain_lies_in_space() {
         }
     }
 }
+
+#[test]
+fn between_two_rows_the_lower_bound_is_the_error_itself_where_they_move_against_each_other() {
+    // Stretched along x, h²k = 64 kg: the answer's energy is ½·2·b²/(m + 2h²k), and ν = m + 2h²k.
+    let mut data = SceneData::default();
+    for (i, (x, v)) in [(0.0, -1.0), (1.0, 1.0)].into_iter().enumerate() {
+        data.particle([x, 0.0, 0.0], 1.0);
+        data.velocity[i] = [v, 0.0, 0.0];
+    }
+    data.spring(0, 1, 64.0);
+    for solver in [0, 1] {
+        let mut scene = build::scene::<f64>(&data);
+        let euler = LinearlyImplicitEuler::new(1.0).tolerance(1.0);
+        let solve = |island: &IslandReport<f64>| assert_bound(island.solve.lower, 64.0);
+        if solver == 0 {
+            scene.step_watched(&mut euler.solver(direct::banded(&data)), &[], solve).unwrap();
+        } else {
+            scene.step_watched(&mut euler.solver(direct::sparse(&data)), &[], solve).unwrap();
+        }
+        fn assert_bound(lower: f64, h2k: f64) {
+            // b = −h²k·Δq̇ = 128 at both ends.
+            let energy = (2.0 * h2k) * (2.0 * h2k) / (1.0 + 2.0 * h2k);
+            assert!(lower <= energy && lower >= 0.999 * energy, "{lower}, not {energy}");
+        }
+    }
+}
+
+#[test]
+fn a_factor_in_less_precision_has_the_same_digits_where_all_masses_and_stiffnesses_are_beyond_it() {
+    // By powers of two f64 scales them without rounding, and f32 has no 2¹⁵⁰.
+    let walks = [0, 150, -150].map(|power| {
+        let mut data = generate::cloth(5);
+        let scale = 2f64.powi(power);
+        data.mass.iter_mut().for_each(|m| *m *= scale);
+        data.springs.iter_mut().for_each(|s| (s.k, s.c) = (s.k * scale, s.c * scale));
+        let walk = walk::<f64>(&data, direct::single(&data));
+        walk.into_iter().map(|(bits, report)| (bits, report.iterations, report.fallbacks)).collect::<Vec<_>>()
+    });
+    assert!(walks[0].iter().all(|(.., fallbacks)| *fallbacks == 0));
+    assert!(walks[0] == walks[1] && walks[0] == walks[2]);
+}
+
+#[test]
+fn a_factor_in_less_precision_takes_two_iterations_however_stiff_a_stretched_cloth_is() {
+    for power in [3, 4, 5, 6, 7] {
+        let mut data = generate::cloth(8);
+        data.springs.iter_mut().for_each(|s| (s.k, s.l0) = (s.k * 10f64.powi(power), 0.9 * s.l0));
+        data.velocity.iter_mut().enumerate().for_each(|(i, v)| *v = [0.0, 0.1 * (i % 3) as f64, 0.0]);
+        let mut scene = build::scene::<f64>(&data);
+        let (report, _) = step(&mut scene, &data, 1e-9, direct::single(&data));
+        assert_eq!((report.iterations, report.fallbacks), (2, 0), "{report:?}");
+    }
+}

@@ -334,3 +334,22 @@ fn what_sleeping_cannot_work_with_is_refused_and_changes_nothing() {
     }
     assert_eq!(build::bits(&scene), before);
 }
+
+#[test]
+fn an_island_asleep_tells_how_many_of_its_springs_were_clamped_when_it_last_was_assembled() {
+    // Between two pins, pressed by as much from both, to a tenth: h²k·9 is more than a particle weighs, and nothing moves.
+    let mut scene = VecScene::<f64>::empty();
+    for x in [0.0, 0.125, 0.25] {
+        scene.particle([x, 0.0, 0.0], 1.0).unwrap();
+    }
+    for (a, b) in [(0, 1), (1, 2)] {
+        scene.spring_with(a, b, hooke::Spring { stiffness: 1e4, rest_length: 1.25 }).unwrap();
+    }
+    scene.pin(0).unwrap();
+    scene.pin(2).unwrap();
+    let mut euler = LinearlyImplicitEuler::new(0.125).absolute(1e-9).sleeping(memory(1e-9, 3, 2));
+    for asleep in [0, 1, 1] {
+        let report = scene.step(&mut euler).unwrap();
+        assert_eq!((report.asleep, report.clamped, report.certified), (asleep, 2, 0));
+    }
+}

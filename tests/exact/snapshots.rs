@@ -83,6 +83,24 @@ fn a_snapshot_restores_into_fixed_slices_and_growable_memory_alike() {
     slices.restore(&saved).unwrap();
     assert_eq!(run(&mut slices, &data, 10), expected, "what was in the buffers before does not matter");
 
+    // Into what is not empty any more.
+    fixed.restore(&saved).unwrap();
+    slices.restore(&saved).unwrap();
+    assert_eq!(
+        (run(&mut fixed, &data, 10), run(&mut slices, &data, 10)),
+        (expected.clone(), expected.clone())
+    );
+
+    // Room for the particles but not for the springs, and the other way round.
+    let mut few_springs = Scene::<f64, 12, 3>::new();
+    let mut few_particles = Scene::<f64, 11, 40>::new();
+    assert!(few_springs.restore(&saved).is_err() && few_particles.restore(&saved).is_err());
+    assert_eq!(
+        (few_springs.positions().len(), few_particles.positions().len()),
+        (0, 0),
+        "and nothing has changed"
+    );
+
     let mut grown = VecScene::<f64>::empty();
     grown.restore(&saved).unwrap();
     assert_eq!(run(&mut grown, &data, 10), expected);

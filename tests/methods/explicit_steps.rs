@@ -247,6 +247,24 @@ fn what_damps_by_0_is_not_there_bit_for_bit() {
 }
 
 #[test]
+fn what_damps_alone_damps_as_it_does_beside_what_damps_by_0() {
+    fn step<F: Force<f64>>(method: Method, forces: F) -> Vec<[f64; 3]> {
+        let (data, motion) = scene(ALL[0]);
+        let mut scene = build::scene::<f64>(&data);
+        method.step(&mut scene, options(0.05, 1e-12), forces, &build::motions(&motion)).unwrap();
+        [build::positions(&scene), build::velocities(&scene)].concat()
+    }
+    for method in [Method::Verlet, Method::SymplecticEuler] {
+        let plain = step(method, ());
+        let drag = step(method, Drag(0.5));
+        assert_eq!(drag, step(method, (Drag(0.5), SpringDamping(0.0))));
+        let damping = step(method, SpringDamping(0.5));
+        assert_eq!(damping, step(method, (Drag(0.0), SpringDamping(0.5))));
+        assert!(plain != drag && plain != damping && drag != damping);
+    }
+}
+
+#[test]
 fn a_step_of_exactly_the_limit_is_refused_and_the_particle_is_that_of_the_worst_of_both_limits() {
     // ω = 1/s: the limit is 2 s.
     let mut data = SceneData::default();

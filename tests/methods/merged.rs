@@ -3,13 +3,13 @@
 use std::cell::Cell;
 
 use hooke::solver::Problem;
-use hooke::{BlockJacobi, Ending, Force, Rosenbrock2, Solve, Solver, StepError, Stop};
+use hooke::{BlockJacobi, Ending, Force, LinearlyImplicitEuler, Rosenbrock2, Solve, Solver, StepError, Stop};
 use hooke_tests::vec_memory::VecScene;
 use hooke_tests::{build, generate};
 
 /// Block Jacobi that says of its solves what it is told.
 struct Told<'a> {
-    told: [Solve<f64>; 2],
+    told: &'a [Solve<f64>],
     solves: &'a Cell<usize>,
 }
 
@@ -35,7 +35,7 @@ fn merged(told: [Solve<f64>; 2]) -> Result<Solve<f64>, StepError> {
     let solves = Cell::new(0);
     let memory = vec![[0.0; 3]; Rosenbrock2::<f64, ()>::needs(5)];
     let mut method =
-        Rosenbrock2::new(0.01, memory).gravity(data.gravity).solver(Told { told, solves: &solves });
+        Rosenbrock2::new(0.01, memory).gravity(data.gravity).solver(Told { told: &told, solves: &solves });
     let mut seen = Vec::new();
     scene.step_watched(&mut method, &[], |island| seen.push(island.solve))?;
     assert_eq!((solves.get(), seen.len()), (2, 1));
@@ -75,5 +75,23 @@ fn a_bound_that_is_no_number_refuses_the_step_whichever_solve_has_it() {
         for told in [[ONE, bad], [bad, ONE], [bad, bad]] {
             assert!(matches!(merged(told), Err(StepError::NotFinite(_))), "{told:?}");
         }
+    }
+}
+
+#[test]
+fn every_island_whose_solve_stalled_is_counted() {
+    let stalled = Solve { ending: Ending::Stalled, ..ONE };
+    for islands in 1..4 {
+        let mut scene = VecScene::<f64>::empty();
+        for i in 0..islands {
+            scene.particle([i as f64, 0.0, 0.0], 1.0).unwrap();
+        }
+        let solves = Cell::new(0);
+        let told = [stalled; 3];
+        let mut method = LinearlyImplicitEuler::new(0.01)
+            .gravity([0.0, -1.0, 0.0])
+            .solver(Told { told: &told, solves: &solves });
+        let report = scene.step(&mut method).unwrap();
+        assert_eq!((report.stalled, report.at_floor, report.capped, report.fallbacks), (islands, 0, 0, 0));
     }
 }
