@@ -34,6 +34,7 @@ mod preconditioned;
 mod renewed_residuals;
 mod rest;
 mod same_bits;
+mod same_steps;
 mod scalings;
 mod sleeping;
 mod snapshots;
