@@ -102,7 +102,8 @@ impl<T: crate::Real> Report<T> {
         }
     }
 
-    pub(crate) fn add(&mut self, island: &IslandReport<T>) {
+    /// One more island: an error if its bound, or the sum of all so far, is beyond the numbers.
+    pub(crate) fn add(&mut self, island: &IslandReport<T>) -> Result<(), crate::StepError> {
         let ended = |ending| u32::from(island.solve.ending == ending);
         self.iterations = self.iterations.saturating_add(island.solve.iterations);
         // Sums of bounds are bounds: rounded up and down.
@@ -118,6 +119,7 @@ impl<T: crate::Real> Report<T> {
         self.capped += ended(Ending::Capped);
         self.stalled += ended(Ending::Stalled);
         self.fallbacks += u32::from(island.solve.fallback);
+        if self.upper.is_finite() { Ok(()) } else { Err(crate::StepError::NotFinite(island.first_particle)) }
     }
 
     /// One more island of the step, shown to `watch`.
@@ -131,12 +133,9 @@ impl<T: crate::Real> Report<T> {
     ) -> Result<(), crate::StepError> {
         let rows = island.matrix.rows.particle;
         let first_particle = rows.first().map_or(0, |i| *i as usize);
-        if !solve.upper.is_finite() {
-            return Err(crate::StepError::NotFinite(first_particle));
-        }
         let particles = rows.len();
         let island = IslandReport { first_particle, particles, clamped, certified, asleep: false, solve };
-        self.add(&island);
+        self.add(&island)?;
         watch(&island);
         Ok(())
     }
