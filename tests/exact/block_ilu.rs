@@ -2,7 +2,7 @@
 //! positive, and exact where nothing fills in; pivots stay above the certificate's μ, and one that rounding spoils is said.
 
 use hooke::{BlockIlu, BlockJacobi, Real};
-use hooke_tests::data::SceneData;
+use hooke_tests::data::{SceneData, SpringData};
 use hooke_tests::generate::{self, Ingredients};
 use hooke_tests::random::Random;
 use hooke_tests::triangular::{self, ilu};
@@ -87,6 +87,27 @@ fn one_iteration_solves_a_chain_in_f32_unless_it_ends_at_the_floor() {
     let floors = one_iteration_is_exact::<f32>();
     println!("{floors} at the floor");
     assert!(floors <= 1, "{floors}");
+}
+
+#[test]
+fn one_iteration_solves_a_chain_whose_links_are_several_springs() {
+    for many in 1..4 {
+        let mut data = generate::chain(12);
+        let links = data.springs.clone();
+        for k in 1..many {
+            data.springs
+                .extend(links.iter().cloned().map(|s| SpringData { k: s.k * (0.5 + f64::from(k)), ..s }));
+        }
+        data.velocity.iter_mut().enumerate().for_each(|(i, v)| *v = [0.1 * i as f64, 0.0, 0.3]);
+        data.velocity[0] = [0.0; 3];
+        let mut scene = build::scene::<f64>(&data);
+        let mut forces = build::Forces::<f64>::new(&data);
+        let mut euler = forces.euler(H).tolerance(1e-10).solver(ilu(&data));
+        for step in 0..5 {
+            let report = scene.step(&mut euler).unwrap();
+            assert_eq!((report.iterations, report.fallbacks), (1, 0), "{many} springs, step {step}");
+        }
+    }
 }
 
 /// Seen: 0.52 and 0.50 of block Jacobi's iterations.
