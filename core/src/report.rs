@@ -102,13 +102,24 @@ impl<T: crate::Real> Report<T> {
         }
     }
 
-    /// One more island: an error if its bound, or the sum of all so far, is beyond the numbers.
-    pub(crate) fn add(&mut self, island: &IslandReport<T>) -> Result<(), crate::StepError> {
+    /// The upper bound of all with one more island, rounded up.
+    #[inline(always)]
+    fn upper_with(&self, upper: T) -> T {
+        (self.upper + upper) * (T::ONE + T::TWO * T::TWO * T::UNIT_ROUNDOFF)
+    }
+
+    /// Is the bound of all with one more island a number?
+    #[inline(always)]
+    pub(crate) fn has_room_for(&self, upper: T) -> bool {
+        self.upper_with(upper).is_finite()
+    }
+
+    pub(crate) fn add(&mut self, island: &IslandReport<T>) {
         let ended = |ending| u32::from(island.solve.ending == ending);
         self.iterations = self.iterations.saturating_add(island.solve.iterations);
         // Sums of bounds are bounds: rounded up and down.
         let slack = T::TWO * T::TWO * T::UNIT_ROUNDOFF;
-        self.upper = (self.upper + island.solve.upper) * (T::ONE + slack);
+        self.upper = self.upper_with(island.solve.upper);
         self.lower = (self.lower + island.solve.lower) * (T::ONE - slack);
         self.clamped += island.clamped;
         self.islands += 1;
@@ -119,7 +130,6 @@ impl<T: crate::Real> Report<T> {
         self.capped += ended(Ending::Capped);
         self.stalled += ended(Ending::Stalled);
         self.fallbacks += u32::from(island.solve.fallback);
-        if self.upper.is_finite() { Ok(()) } else { Err(crate::StepError::NotFinite(island.first_particle)) }
     }
 
     /// One more island of the step, shown to `watch`.
@@ -133,9 +143,12 @@ impl<T: crate::Real> Report<T> {
     ) -> Result<(), crate::StepError> {
         let rows = island.matrix.rows.particle;
         let first_particle = rows.first().map_or(0, |i| *i as usize);
+        if !self.has_room_for(solve.upper) {
+            return Err(crate::StepError::NotFinite(first_particle));
+        }
         let particles = rows.len();
         let island = IslandReport { first_particle, particles, clamped, certified, asleep: false, solve };
-        self.add(&island)?;
+        self.add(&island);
         watch(&island);
         Ok(())
     }

@@ -31,8 +31,11 @@ fn asked(scene: &mut VecScene<f64>, order: &[u32]) -> Vec<[usize; 2]> {
     }
 }
 
+/// A scene, an order, and what was asked for.
+type Case = (SceneData, Vec<u32>, &'static [[usize; 2]]);
+
 /// Scenes, orders, and what was asked for: of a chain of 11 rows and springs first 9 + 9·11 + 4·11 + 2 words, to analyse it in.
-fn cases() -> [(SceneData, Vec<u32>, &'static [[usize; 2]]); 5] {
+fn cases() -> [Case; 5] {
     let islands = side_by_side(&generate::cloth(4), &generate::chain(7)).0;
     let three = side_by_side(&islands, &generate::lattice(2, 3, 2)).0;
     let backwards = (0..three.len() as u32).rev().collect();
@@ -54,8 +57,11 @@ fn numbers_and_words_are_asked_for_as_they_were_found_once() {
     }
 }
 
-/// Three steps by two methods of many solves.
-fn walks(data: &SceneData, make: impl Fn() -> Sized) -> Result<Vec<(Vec<[u64; 6]>, Report<f64>)>, StepError> {
+/// Bits and report of each step.
+type Walk = Vec<(Vec<[u64; 6]>, Report<f64>)>;
+
+/// Three steps by each of three methods, two of them of many solves.
+fn walks(data: &SceneData, make: impl Fn() -> Sized) -> Result<Walk, StepError> {
     let mut seen = Vec::new();
     let memory = || vec![[0.0; 3]; 8 * data.len()];
     macro_rules! walk {

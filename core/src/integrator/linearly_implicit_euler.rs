@@ -111,7 +111,10 @@ impl<T: Real, F: Force<T>, S: Solver<T>, Z: Sleep<T>> Integrator<T> for Linearly
         for k in 0..islands.count {
             let mut island = islands.island(k, work, &state);
             if let Some(asleep) = self.sleep.asleep(&mut island, &self.forces) {
-                report.add(&asleep)?;
+                if !report.has_room_for(asleep.solve.upper) {
+                    return Err(StepError::NotFinite(asleep.first_particle));
+                }
+                report.add(&asleep);
                 watch(&asleep);
                 continue;
             }

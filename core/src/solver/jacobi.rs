@@ -23,21 +23,9 @@ pub trait Preconditioner<T: Real> {
     /// z = D⁻¹ r; answers rᵀz.
     fn apply(&self, r: &[Vec3<T>], z: &mut [Vec3<T>]) -> T;
 
-    /// What a PCG iteration does with its vectors after the product y = A p, in one sweep where the preconditioner can:
+    /// What a PCG iteration does with its vectors after the product y = A p, in one sweep:
     /// x += a p, r −= a y, and then y = z = D⁻¹ r. Answers Σ|rᵢ|²/μᵢ and rᵀz; `weight` is 1/μ.
-    fn sweep(&self, a: T, vectors: [&mut [Vec3<T>]; 4], weight: &[T]) -> (T, T) {
-        let [x, r, p, y] = vectors;
-        let mut beta = Lanes::new();
-        for (i, ((((x, r), p), y), weight)) in
-            x.iter_mut().zip(r.iter_mut()).zip(p.iter()).zip(y.iter()).zip(weight).enumerate()
-        {
-            *x = vec3::add_scaled(*x, a, *p);
-            *r = vec3::add_scaled(*r, -a, *y);
-            beta.add(i, square(*r, *weight));
-        }
-        let rz = self.apply(r, y);
-        (beta.sum(), rz)
-    }
+    fn sweep(&self, a: T, vectors: [&mut [Vec3<T>]; 4], weight: &[T]) -> (T, T);
 }
 
 /// The inverses of A's diagonal blocks, in borrowed memory.
