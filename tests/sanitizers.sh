@@ -36,9 +36,10 @@ address() {
     echo 'fn main() { std::hint::black_box(Box::leak(Box::new([1u8; 99]))); }' >"$work/control/main.rs"
     rustc +nightly -Zsanitizer=address --target "$host" -o "$work/control/main" "$work/control/main.rs"
     check "a leak made on purpose is seen" bash -c "! '$work/control/main' && true"
+    # One test overflows the stack of a child on purpose and looks for the words of a program without a sanitizer.
     for test in exact replay; do
         check "address and leaks: $test" cargo +nightly test --quiet --target-dir "$target/address" --target "$host" \
-            -p hooke-tests --test "$test" -- --test-threads 1
+            -p hooke-tests --test "$test" -- --test-threads 1 --skip the_same_scene_built_by_value_overflows
     done
     unset RUSTFLAGS ASAN_OPTIONS
 }
