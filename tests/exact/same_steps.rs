@@ -370,7 +370,7 @@ fn by_multigrid_in_lanes() {
 }
 
 #[test]
-fn cables_in_lanes_have_the_bits_of_the_plain_solvers_assembly() {
+fn cables_in_lanes_are_clamped_as_by_the_plain_solver_and_end_where_it_ends() {
     for data in scenes() {
         let mut scenes = [VecScene::<f64, Cables>::empty(), VecScene::empty()];
         for scene in &mut scenes {
