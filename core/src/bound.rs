@@ -11,7 +11,7 @@
 //! component by component, for the matrix *of the stored floats*; δ is added above and taken off below. (Sums of
 //! Hestenes and Stiefel would bound an earlier iterate.)
 //!
-//! Cost: one product with its rounding at each check of a solve (most have one), one more at its end. Valid for rows of up to 2¹⁷ springs in f32, 2⁴⁶ in f64.
+//! Cost: one product with its rounding at each check of a solve (most have one), one more at its end; in lanes half a product there. Valid for rows of up to 2¹⁷ springs in f32, 2⁴⁶ in f64.
 //!
 //! The theorem, with its conditions, its proof and where that has gaps: `CERTIFICATE.md` in this crate's folder.
 //!
@@ -202,6 +202,21 @@ pub(crate) fn gain<T: Real>(n: usize, of_r: [T; 3], of_t: [T; 3]) -> T {
     let unit = factor - T::ONE;
     let gain = rz - (loss * factor + unit * rz_size + term);
     let form = (rz - tz) + (spread * factor + unit * (rz_size + tz_size) + term);
-    let form = form * factor;
+    over(gain, form * factor, factor)
+}
+
+/// The same from the sums of [`products`] of r with δ over n rows, and zᵀAz as a sum of m̃|z|² and α|d|² + (w·d)² over so many
+/// rows and springs, beside it that of m̃|z|² and |α||d|² + (|w|·|d|)².
+pub(crate) fn gain_by_form<T: Real>(n: usize, of_r: [T; 3], terms: usize, [form, size]: [T; 2]) -> T {
+    let [rz, rz_size, loss] = of_r;
+    let (factor, term) = cover(3 * n);
+    let gain = rz - (loss * factor + (factor - T::ONE) * rz_size + term);
+    let (more, term) = cover(terms);
+    let form = form + ((more - T::ONE) * size * more + term);
+    over(gain, form * more, factor)
+}
+
+/// ½ gain²/form, rounded down.
+fn over<T: Real>(gain: T, form: T, factor: T) -> T {
     if gain > T::ZERO && form > T::ZERO { T::HALF * (gain / form) * gain / factor } else { T::ZERO }
 }

@@ -138,11 +138,16 @@ fn where_nothing_is_solved_the_bounds_are_those_of_b_itself_with_the_margins_of_
                     // z = b/m̃, r − Az = 0: what is left are margins.
                     let z = b / MASS;
                     let size = rows as f64 * b * z;
-                    let spread: f64 =
-                        (1..data.len()).map(|i| delta(&data, i, b, name.starts_with("lanes")) * z).sum();
                     let unit = factor - 1.0;
                     let gain = size - (unit * size + term);
-                    let form = (size + spread * factor + unit * size + term) * factor;
+                    let form = if name.starts_with("lanes") {
+                        // Springs are at right angles to z and not stretched: they add terms, but nothing to the sum.
+                        let (factor, term) = cover(counted + springs);
+                        (size + (factor - 1.0) * size * factor + term) * factor
+                    } else {
+                        let spread: f64 = (1..data.len()).map(|i| delta(&data, i, b, false) * z).sum();
+                        (size + spread * factor + unit * size + term) * factor
+                    };
                     near(&format!("{name}: lower"), solve.lower, rows, |_| 0.5 * gain * gain / form / factor);
                 } else {
                     assert!(solve.lower > 0.0 && solve.lower < solve.upper, "{name}");

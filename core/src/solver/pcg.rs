@@ -97,7 +97,7 @@ pub(crate) trait Iteration<T: Real> {
         iterations: &mut u32,
     ) -> bool;
 
-    /// z = D⁻¹ r into y.
+    /// z into y, D⁻¹ r or near it: for the lower bound, which takes any z.
     fn precondition<F: Force<T>>(&mut self, system: &System<'_, T, F>, v: &mut Vectors<'_, T>);
 }
 

@@ -9,7 +9,7 @@ use crate::law::Law;
 use crate::real::Real;
 use crate::vec3::{self, Vec3};
 use crate::wide::eight::{Eight, all, choose, load, store, where_positive};
-use crate::wide::layout::Layout;
+use crate::wide::layout::{Layout, eights};
 use crate::wide::neighbours::{Neighbours, alike, of_springs};
 use crate::wide::work::{Front, Workshop};
 
@@ -33,19 +33,17 @@ impl<T: Real> Stretched<T> {
     #[inline(always)]
     fn new<L: Law, N: Neighbours, const DAMPED: bool>(
         neighbours: N,
-        front: &Front<'_, T>,
-        workshop: &Workshop<'_, T>,
+        Workshop { position, velocity, springs, .. }: &Workshop<'_, T>,
         scaling: Scaling<T>,
         (spring, at, ends): (N::Spring, usize, N::Ends),
     ) -> Self {
         let (stiffness, rest_length, damping) = if DAMPED {
-            let [k, l0, c] = of_springs(neighbours, front.springs, spring);
+            let [k, l0, c] = of_springs(neighbours, springs, spring);
             (k, l0, all(scaling.damping) * c)
         } else {
-            let [k, l0] = of_springs(neighbours, front.springs, spring);
+            let [k, l0] = of_springs(neighbours, springs, spring);
             (k, l0, all(T::ZERO))
         };
-        let Workshop { position, velocity, .. } = workshop;
         let delta = vec3::sub(position.load(at), neighbours.vector(alike(position), ends));
         let speed = vec3::sub(velocity.load(at), neighbours.vector(alike(velocity), ends));
         let squared = vec3::dot(delta, delta);
@@ -130,10 +128,11 @@ fn put_pull<T: Real, N: Neighbours>(neighbours: N, pulls: &mut [T], spring: N::S
     }
 }
 
-/// The springs' Hessians and pulls h f − H Δq̇. Answers how many Hessians are replacements.
+/// The Hessians and pulls h f − H Δq̇ of some rows' own springs. Answers how many Hessians are replacements.
 #[inline(always)]
 pub(crate) fn linearize<T: Real, L: Law, N: Neighbours, const DAMPED: bool>(
     neighbours: N,
+    rows: [usize; 2],
     front: &mut Front<'_, T>,
     workshop: &mut Workshop<'_, T>,
     h: T,
@@ -141,10 +140,10 @@ pub(crate) fn linearize<T: Real, L: Law, N: Neighbours, const DAMPED: bool>(
 ) -> u32 {
     let mut replaced = all(T::ZERO);
     neighbours.each_spring(
+        rows,
         #[inline(always)]
         |springs, at, ends| {
-            let spring =
-                Stretched::new::<L, N, DAMPED>(neighbours, front, workshop, scaling, (springs, at, ends));
+            let spring = Stretched::new::<L, N, DAMPED>(neighbours, workshop, scaling, (springs, at, ends));
             let (mut hessian, mut push) = (spring.hessian(scaling), -spring.tension());
             let mut changed = spring.replaced();
             if slackens::<L>() {
@@ -214,15 +213,15 @@ fn chosen<T: Real>(first: Eight<T>, [a, b, c]: Vec3<Eight<T>>, [x, y, z]: Vec3<E
     [choose(first, a, x), choose(first, b, y), choose(first, c, z)]
 }
 
-/// b += Σ pulls, rows only.
+/// b += Σ pulls of some rows.
 #[inline(always)]
 pub(crate) fn gather<T: Real, N: Neighbours>(
     neighbours: N,
-    layout: &Layout,
+    rows: [usize; 2],
     front: &mut Front<'_, T>,
     pulls: &[T],
 ) {
-    for at in layout.tiles() {
+    for at in eights(rows) {
         let mut b = front.b.load(at);
         for pull in neighbours.pulls_above(pulls, at) {
             b = vec3::sub(b, pull);
@@ -235,10 +234,10 @@ pub(crate) fn gather<T: Real, N: Neighbours>(
     }
 }
 
-/// What compressed springs charge μ with, rounded up: see [`crate::certificate::charge`].
+/// What compressed springs charge some rows' μ with, rounded up: see [`crate::certificate::charge`].
 #[inline(always)]
-pub(crate) fn charge<T: Real, N: Neighbours>(neighbours: N, layout: &Layout, front: &mut Front<'_, T>) {
-    for at in layout.tiles() {
+pub(crate) fn charge<T: Real, N: Neighbours>(neighbours: N, rows: [usize; 2], front: &mut Front<'_, T>) {
+    for at in eights(rows) {
         let mut sum = all(T::ZERO);
         for (h, ends) in neighbours.above(front.hessians, at).chain(neighbours.own(front.hessians, at)) {
             sum = charged(sum, h.alpha, neighbours.number(front.inertia, ends));
@@ -287,25 +286,27 @@ pub(crate) fn fails<T: Real>(m: Eight<T>, mu: Eight<T>) -> Eight<T> {
     )
 }
 
-/// Clamps the compressed springs that meet a failing row. The pulls become what that changes in b. Answers how many.
+/// Clamps the compressed ones of some rows' own springs that meet a failing row. The pulls become what that changes in b.
+/// Answers how many.
 #[inline(always)]
 pub(crate) fn clamp<T: Real, L: Law, N: Neighbours, const DAMPED: bool>(
     neighbours: N,
+    rows: [usize; 2],
     front: &mut Front<'_, T>,
     workshop: &mut Workshop<'_, T>,
     scaling: Scaling<T>,
 ) -> u32 {
     let mut clamped = 0;
     neighbours.each_spring(
+        rows,
         #[inline(always)]
         |spring, at, ends| {
             let near_fails = fails(load(front.inertia, at), load(front.mu, at));
             let far = [neighbours.number(front.inertia, ends), neighbours.number(front.mu, ends)];
             let met = near_fails + fails(far[0], far[1]);
-            let [alpha, x, y, z] = of_springs(neighbours, front.hessians, spring);
-            let old = Hessian { alpha, w: [x, y, z] };
+            let alpha = load(front.hessians, neighbours.place::<4>(spring, 0));
             let hit = met.zip(
-                old.alpha,
+                alpha,
                 #[inline(always)]
                 |met, alpha| if met > T::ZERO && !(alpha >= T::ZERO) { T::ONE } else { T::ZERO },
             );
@@ -313,8 +314,10 @@ pub(crate) fn clamp<T: Real, L: Law, N: Neighbours, const DAMPED: bool>(
             let mut change = [all(T::ZERO); 3];
             if hits > 0 {
                 clamped += hits;
+                let [_, x, y, z] = of_springs(neighbours, front.hessians, spring);
+                let old = Hessian { alpha, w: [x, y, z] };
                 let springs = (spring, at, ends);
-                let stretched = Stretched::new::<L, N, DAMPED>(neighbours, front, workshop, scaling, springs);
+                let stretched = Stretched::new::<L, N, DAMPED>(neighbours, workshop, scaling, springs);
                 let (new, speed) = (stretched.clamped(scaling), stretched.speed);
                 let surely = surely_clamped(neighbours, front.inertia, old.alpha, at, ends);
                 let changes = choose(surely, all(T::ZERO), hit);

@@ -152,6 +152,45 @@ pub(crate) fn products<T: Real>(
     [sum.sum(), size.sum(), loss.sum()]
 }
 
+/// zᵀAz = Σ m̃|z|² + Σ (α|d|² + (w·d)²), each spring at the row that owns it, and what its rounding is measured by:
+/// Σ m̃|z|² + Σ (|α||d|² + (|w|·|d|)²).
+#[inline(always)]
+pub(crate) fn form<T: Real>(matrix: Matrix<'_, T>, z: &Planes<'_, T>) -> [Lanes<T>; 2] {
+    either!(matrix.way, neighbours => form_in(neighbours, matrix, z))
+}
+
+#[inline(always)]
+fn form_in<T: Real, N: Neighbours>(
+    neighbours: N,
+    Matrix { layout, hessians, inertia, .. }: Matrix<'_, T>,
+    z: &Planes<'_, T>,
+) -> [Lanes<T>; 2] {
+    let (planes, least) = (alike(z), all(T::MIN_POSITIVE));
+    let (mut form, mut size) = (all(T::ZERO), all(T::ZERO));
+    for at in layout.tiles() {
+        let here = z.load(at);
+        let m = load(inertia, at);
+        let squared = vec3::dot(here, here);
+        form = form + m * squared;
+        size = size + m * (squared + least);
+        for (h, ends) in neighbours.own(hessians, at) {
+            let d = vec3::sub(here, neighbours.vector(planes, ends));
+            let (squared, along) = (vec3::dot(d, d), vec3::dot(h.w, d));
+            let most = vec3::dot(magnitude(h.w), magnitude(d)) + least;
+            form = form + (h.alpha * squared + along * along);
+            size = size + (h.alpha.abs() * (squared + least) + most * most);
+        }
+    }
+    [Lanes::of(form.0), Lanes::of(size.0)]
+}
+
+/// The same of a point spring.
+pub(crate) fn form_of_point<T: Real>(h: &Hessian<T>, z: Vec3<T>) -> [T; 2] {
+    let (squared, along) = (vec3::dot(z, z), vec3::dot(h.w, z));
+    let most = vec3::dot(vec3::map(h.w, T::abs), vec3::map(z, T::abs)) + T::MIN_POSITIVE;
+    [h.alpha * squared + along * along, h.alpha.abs() * (squared + T::MIN_POSITIVE) + most * most]
+}
+
 /// What rounding x itself leaves after so many updates, β of δ + k u |A||x|; see [`crate::bound::attainable`]. Into `size`.
 #[inline(always)]
 pub(crate) fn attainable<T: Real>(matrix: Matrix<'_, T>, x: &Planes<'_, T>, size: &mut Planes<'_, T>) {

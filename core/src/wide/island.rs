@@ -48,15 +48,7 @@ impl<T: Real, F: Force<T>, D: Dispatch> Givens<'_, '_, T, F, D> {
             return Ok(None);
         }
         let points = F::ANCHORS && self.island.vectors.y.iter().any(|mark| mark[0] != T::ZERO);
-        if let Some(nothing) = workshop.pulls.get_mut(..NUMBERS) {
-            nothing.fill(T::ZERO);
-        }
-        for run in 0..3 * self.layout.runs {
-            let first = run * self.layout.plane();
-            if let Some(margin) = workshop.pulls.get_mut(first..first + self.layout.pad) {
-                margin.fill(T::ZERO);
-            }
-        }
+        self.clear_margins(workshop.pulls);
         let mut replaced = self.linearize::<L>(front, workshop);
         if points {
             replaced += self.forces.linearize(&self.island.matrix.rows, self.scaling);
@@ -76,6 +68,19 @@ impl<T: Real, F: Force<T>, D: Dispatch> Givens<'_, '_, T, F, D> {
         }))
     }
 
+    /// Nobody above the first rows pulls at them, nor does a spring that is not there.
+    fn clear_margins(&self, pulls: &mut [T]) {
+        if let Some(nothing) = pulls.get_mut(..NUMBERS) {
+            nothing.fill(T::ZERO);
+        }
+        for plane in 0..3 * self.layout.runs {
+            let first = plane * self.layout.pulls();
+            if let Some(margin) = pulls.get_mut(first..first + self.layout.pad) {
+                margin.fill(T::ZERO);
+            }
+        }
+    }
+
     fn linearize<L: Law>(&self, front: &mut Front<'_, T>, workshop: &mut Workshop<'_, T>) -> u32 {
         either!(self.way, neighbours => self.linearize_in::<L, _>(neighbours, front, workshop))
     }
@@ -91,13 +96,20 @@ impl<T: Real, F: Force<T>, D: Dispatch> Givens<'_, '_, T, F, D> {
         self.dispatch.run(
             #[inline(always)]
             || {
-                let replaced = if F::DAMPS {
-                    linearize::<T, L, N, true>(neighbours, front, workshop, h, scaling)
-                } else {
-                    linearize::<T, L, N, false>(neighbours, front, workshop, h, scaling)
-                };
-                gather(neighbours, layout, front, workshop.pulls);
-                charge(neighbours, layout, front);
+                let (mut replaced, mut first) = (0, layout.pad);
+                while first < layout.pad + layout.places {
+                    let (neighbours, stop) = neighbours.stretch(first);
+                    let rows = [first, stop];
+                    replaced += if F::DAMPS {
+                        linearize::<T, L, N, true>(neighbours, rows, front, workshop, h, scaling)
+                    } else {
+                        linearize::<T, L, N, false>(neighbours, rows, front, workshop, h, scaling)
+                    };
+                    gather(neighbours, rows, front, workshop.pulls);
+                    charge(neighbours, rows, front);
+                    neighbours.keep(workshop.pulls);
+                    first = stop;
+                }
                 replaced
             },
         )
@@ -119,7 +131,7 @@ impl<T: Real, F: Force<T>, D: Dispatch> Givens<'_, '_, T, F, D> {
         points: bool,
     ) -> Result<u32, StepError> {
         let (layout, scaling) = (self.layout, self.scaling);
-        let mut clamped = either!(self.way, neighbours => self.clamp_in::<L, _>(neighbours, front, workshop));
+        let mut clamped = 0;
         if points {
             let rows = self.island.matrix.rows;
             let fails = |row: usize| {
@@ -128,10 +140,8 @@ impl<T: Real, F: Force<T>, D: Dispatch> Givens<'_, '_, T, F, D> {
             };
             clamped += self.forces.clamp(&rows, scaling, fails);
         }
-        self.dispatch.run(
-            #[inline(always)]
-            || either!(self.way, neighbours => charge(neighbours, layout, front)),
-        );
+        self.clear_margins(workshop.pulls);
+        clamped += either!(self.way, neighbours => self.clamp_in::<L, _>(neighbours, front, workshop));
         if points {
             self.charge_points(front);
         }
@@ -157,12 +167,21 @@ impl<T: Real, F: Force<T>, D: Dispatch> Givens<'_, '_, T, F, D> {
         self.dispatch.run(
             #[inline(always)]
             || {
-                let clamped = if F::DAMPS {
-                    clamp::<T, L, N, true>(neighbours, front, workshop, scaling)
-                } else {
-                    clamp::<T, L, N, false>(neighbours, front, workshop, scaling)
-                };
-                gather(neighbours, layout, front, workshop.pulls);
+                let (mut clamped, mut first) = (0, layout.pad);
+                while first < layout.pad + layout.places {
+                    let (neighbours, stop) = neighbours.stretch(first);
+                    let rows = [first, stop];
+                    clamped += if F::DAMPS {
+                        clamp::<T, L, N, true>(neighbours, rows, front, workshop, scaling)
+                    } else {
+                        clamp::<T, L, N, false>(neighbours, rows, front, workshop, scaling)
+                    };
+                    gather(neighbours, rows, front, workshop.pulls);
+                    // Nobody asks for these rows' μ as it was any more: springs are at the rows above.
+                    charge(neighbours, rows, front);
+                    neighbours.keep(workshop.pulls);
+                    first = stop;
+                }
                 clamped
             },
         )

@@ -13,9 +13,17 @@ use crate::wide::slots::{self, Counts};
 
 /// At most so many distances.
 pub(crate) const MOST_RUNS: usize = 16;
+/// At least so many rows at a time.
+const STRETCH: usize = 1024;
 /// A spring's word: its run in the upper bits, its place in the lower.
 const PLACE_BITS: u32 = 27;
 const PLACE: u32 = (1 << PLACE_BITS) - 1;
+
+/// Some rows' eights.
+#[inline(always)]
+pub(crate) fn eights([first, stop]: [usize; 2]) -> impl Iterator<Item = usize> {
+    (0..stop.saturating_sub(first) / WIDTH).map(move |k| first + k * WIDTH)
+}
 
 /// Where an island's rows and springs lie.
 #[derive(Debug, Clone, Copy)]
@@ -86,8 +94,19 @@ impl Layout {
     /// Where the tiles begin.
     #[inline(always)]
     pub(crate) fn tiles(&self) -> impl Iterator<Item = usize> + use<> {
-        let pad = self.pad;
-        (0..self.places / WIDTH).map(move |k| pad + k * WIDTH)
+        eights([self.pad, self.pad + self.places])
+    }
+
+    /// Rows whose springs are computed before they gather, in runs: the numbers of so many stay in the cache meanwhile.
+    #[inline(always)]
+    pub(crate) fn stretch(&self) -> usize {
+        core::cmp::min(core::cmp::max(self.pad, STRETCH), self.places)
+    }
+
+    /// Numbers in a plane of pulls: a stretch's, and before them those of the rows above that reach it.
+    #[inline(always)]
+    pub(crate) fn pulls(&self) -> usize {
+        self.pad + self.stretch()
     }
 
     /// Where a particle lies in a plane, in runs.

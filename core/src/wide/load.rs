@@ -33,6 +33,7 @@ pub(crate) fn load<T: Real, F: Force<T>, L: Law>(
     fill(&mut workshop.position, layout, part(state.position, there.clone()));
     fill(&mut workshop.velocity, layout, part(state.velocity, there));
     front.inertia.fill(T::ZERO);
+    workshop.springs.fill(T::ZERO);
     for plane in &mut front.b.0 {
         plane.fill(T::ZERO);
     }
@@ -52,7 +53,7 @@ pub(crate) fn load<T: Real, F: Force<T>, L: Law>(
             let Some(pair) = island.pair(row, other) else { return false };
             let Some(run) = layout.run_of(*word, &pair) else { return false };
             let at = constants::<F, T>() * run * n + layout.place(pair.low);
-            put_constants::<T, F, L>(island, forces, j, front.springs, [at, n]);
+            put_constants::<T, F, L>(island, forces, j, workshop.springs, [at, n]);
             if other >= rows {
                 let pin = if pair.turned { pair.low } else { pair.low + pair.distance };
                 workshop.velocity.put(layout.place(pin), island.end(other).velocity);
@@ -74,6 +75,7 @@ pub(crate) fn load_slots<T: Real, F: Force<T>, L: Law>(
 ) -> bool {
     let matrix = &island.matrix;
     let rows = matrix.own.len();
+    workshop.springs.fill(T::ZERO);
     if matrix.other.len() != layout.springs || rows != slots.places.len() {
         return false;
     }
@@ -119,7 +121,7 @@ pub(crate) fn load_slots<T: Real, F: Force<T>, L: Law>(
                 return false;
             }
             let at = constants::<F, T>() * slot * WIDTH + lane;
-            put_constants::<T, F, L>(island, forces, *j as usize, front.springs, [at, WIDTH]);
+            put_constants::<T, F, L>(island, forces, *j as usize, workshop.springs, [at, WIDTH]);
         }
     }
     true

@@ -14,10 +14,10 @@
 //! every [`Dispatch`]. An island that fills neither layout (a star) is left to [`crate::BlockJacobi`]. The layout is found
 //! once, compared with the island at every step, and found anew when springs or pins have changed.
 //!
-//! Cost: `compare` in `benches/` measures it. Memory, on top of the scene's: in runs 23 numbers per particle and 6 per particle
-//! and distance. In slots 11 numbers per particle and 14 per spring (23 and 10 where a particle has fewer than three springs),
-//! 3 words per spring and 1 per particle, and a tenth more of what belongs to springs, for places that no spring takes. With
-//! damping along springs each of them has one number more.
+//! Cost: `compare` in `benches/` measures it. Memory, on top of the scene's: in runs 23 numbers per particle and 4 per particle
+//! and distance (11 and 6 where there are more than six distances). In slots 11 numbers per particle and 14 per spring (23 and 8
+//! where a particle has fewer than two springs), 3 words per spring and 1 per particle, and a tenth more of what belongs to
+//! springs, for places that no spring takes. With damping along springs each of them has up to one number more.
 
 pub(crate) mod assembly;
 pub(crate) mod bound;
@@ -176,10 +176,10 @@ impl<N, W, D: Dispatch, P> Wide<N, W, D, P> {
         let short = StepError::Workspace { numbers: work::needs(&layout, F::DAMPS), words: layout.words() };
         let words = &*self.words.as_mut().get_mut(..layout.words()).ok_or(short)?;
         let way = Way::of(&layout, words).ok_or(short)?;
-        let (mut front, behind) = work::cut(self.numbers.as_mut(), &layout, F::DAMPS).ok_or(short)?;
+        let (mut front, behind) = work::cut(self.numbers.as_mut(), &layout).ok_or(short)?;
         let Island { island, forces, h, scaling } = to;
         let assembled = {
-            let mut workshop = Workshop::cut(&mut *behind, &layout).ok_or(short)?;
+            let mut workshop = Workshop::cut(&mut *behind, &layout, F::DAMPS).ok_or(short)?;
             let (h, scaling, layout) = (*h, *scaling, &layout);
             let mut givens =
                 Givens { island, forces: &mut **forces, h, scaling, layout, words, way, dispatch };

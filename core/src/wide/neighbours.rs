@@ -7,7 +7,7 @@ use crate::hessian::Hessian;
 use crate::real::Real;
 use crate::vec3::Vec3;
 use crate::wide::eight::{Eight, Planes, WIDTH, all, load};
-use crate::wide::layout::Layout;
+use crate::wide::layout::{Layout, eights};
 use crate::wide::slots::{NUMBERS, Slots};
 use crate::wide::work::hessians;
 
@@ -23,9 +23,12 @@ pub(crate) trait Neighbours: Copy {
     -> impl Iterator<Item = (Hessian<Eight<T>>, Self::Ends)>;
     /// Those of the rows' own.
     fn own<T: Real>(self, planes: &[T], at: usize) -> impl Iterator<Item = (Hessian<Eight<T>>, Self::Ends)>;
-    /// Visits all springs, each once, with their rows and other ends. No iterator: the standard library's closures are not
-    /// compiled for the registers of a [`crate::Dispatch`].
-    fn each_spring(self, visit: impl FnMut(Self::Spring, usize, Self::Ends));
+    /// Rows from a first one on whose springs are computed before they gather their pulls: with the pulls in view, and where
+    /// they end.
+    fn stretch(self, first: usize) -> (Self, usize);
+    /// Visits the springs that rows from a first until before a last one own, with their rows and other ends. No iterator: the
+    /// standard library's closures are not compiled for the registers of a [`crate::Dispatch`].
+    fn each_spring(self, rows: [usize; 2], visit: impl FnMut(Self::Spring, usize, Self::Ends));
     /// Where the k-th of N numbers of eight springs lies.
     fn place<const N: usize>(self, spring: Self::Spring, k: usize) -> usize;
     /// Pulls of the springs that rows above own.
@@ -34,6 +37,8 @@ pub(crate) trait Neighbours: Copy {
     fn pulls_own<T: Real>(self, pulls: &[T], at: usize) -> impl Iterator<Item = Vec3<Eight<T>>>;
     /// The k-th component of pulls.
     fn pull(self, spring: Self::Spring, k: usize) -> usize;
+    /// Keeps of the pulls of a stretch what rows behind it will gather.
+    fn keep<T: Real>(self, pulls: &mut [T]);
     /// A number of each other end.
     fn number<T: Real>(self, plane: &[T], ends: Self::Ends) -> Eight<T>;
     /// A vector of each; the planes are equally long.
@@ -76,7 +81,7 @@ impl<'w> Way<'w> {
     pub(crate) fn of(layout: &'w Layout, words: &'w [u32]) -> Option<Self> {
         Some(match &layout.slots {
             Some(counts) => Self::Slots(Slots::cut(counts, words)?),
-            None => Self::Runs(Runs(layout)),
+            None => Self::Runs(Runs::new(layout)),
         })
     }
 
@@ -84,7 +89,7 @@ impl<'w> Way<'w> {
     #[inline(always)]
     pub(crate) fn place(&self, row: usize, particle: u32) -> usize {
         match self {
-            Self::Runs(runs) => runs.0.place(particle),
+            Self::Runs(runs) => runs.layout.place(particle),
             Self::Slots(slots) => slots.places.get(row).map_or(0, |place| *place as usize),
         }
     }
@@ -93,7 +98,7 @@ impl<'w> Way<'w> {
     #[cold]
     pub(crate) fn particle(&self, place: usize, particles: &[u32]) -> Option<usize> {
         match self {
-            Self::Runs(runs) => Some(runs.0.base + place - runs.0.pad),
+            Self::Runs(runs) => Some(runs.layout.base + place - runs.layout.pad),
             Self::Slots(slots) => {
                 let row = slots.places.iter().position(|at| *at as usize == place)?;
                 particles.get(row).map(|particle| *particle as usize)
@@ -115,7 +120,26 @@ pub(crate) use either;
 
 /// Offset runs.
 #[derive(Clone, Copy)]
-pub(crate) struct Runs<'l>(pub(crate) &'l Layout);
+pub(crate) struct Runs<'l> {
+    layout: &'l Layout,
+    /// Of which place the first pulls are. There are those of a stretch, and before them those of the rows that reach it.
+    from: usize,
+}
+
+impl<'l> Runs<'l> {
+    /// With the first stretch's pulls in view.
+    pub(crate) fn new(layout: &'l Layout) -> Self {
+        Self { layout, from: 0 }
+    }
+
+    #[inline(always)]
+    fn of_pulls<T: Real>(self, pulls: &[T], spring: [usize; 2]) -> Vec3<Eight<T>> {
+        [0, 1, 2].map(
+            #[inline(always)]
+            |k| load(pulls, self.pull(spring, k)),
+        )
+    }
+}
 
 impl Neighbours for Runs<'_> {
     /// Run and place.
@@ -124,49 +148,67 @@ impl Neighbours for Runs<'_> {
 
     #[inline(always)]
     fn above<T: Real>(self, planes: &[T], at: usize) -> impl Iterator<Item = (Hessian<Eight<T>>, usize)> {
-        let n = self.0.plane();
-        self.0.distances().iter().enumerate().rev().map(
+        let n = self.layout.plane();
+        self.layout.distances().iter().enumerate().rev().map(
             #[inline(always)]
             move |(run, d)| (hessians(planes, n, run, at - *d as usize), at - *d as usize),
         )
     }
     #[inline(always)]
     fn own<T: Real>(self, planes: &[T], at: usize) -> impl Iterator<Item = (Hessian<Eight<T>>, usize)> {
-        let n = self.0.plane();
-        self.0.distances().iter().enumerate().map(
+        let n = self.layout.plane();
+        self.layout.distances().iter().enumerate().map(
             #[inline(always)]
             move |(run, d)| (hessians(planes, n, run, at), at + *d as usize),
         )
     }
     #[inline(always)]
-    fn each_spring(self, mut visit: impl FnMut([usize; 2], usize, usize)) {
-        for (run, d) in self.0.distances().iter().enumerate() {
-            for at in self.0.tiles() {
+    fn stretch(self, first: usize) -> (Self, usize) {
+        let Layout { pad, places, .. } = *self.layout;
+        let stop = core::cmp::min(first + self.layout.stretch(), pad + places);
+        (Self { from: first - pad, ..self }, stop)
+    }
+    #[inline(always)]
+    fn each_spring(self, rows: [usize; 2], mut visit: impl FnMut([usize; 2], usize, usize)) {
+        for (run, d) in self.layout.distances().iter().enumerate() {
+            for at in eights(rows) {
                 visit([run, at], at, at + *d as usize);
             }
         }
     }
     #[inline(always)]
     fn place<const N: usize>(self, [run, at]: [usize; 2], k: usize) -> usize {
-        (N * run + k) * self.0.plane() + at
+        (N * run + k) * self.layout.plane() + at
     }
     #[inline(always)]
     fn pulls_above<T: Real>(self, pulls: &[T], at: usize) -> impl Iterator<Item = Vec3<Eight<T>>> {
-        self.0.distances().iter().enumerate().rev().map(
+        self.layout.distances().iter().enumerate().rev().map(
             #[inline(always)]
-            move |(run, d)| of_springs(self, pulls, [run, at - *d as usize]),
+            move |(run, d)| self.of_pulls(pulls, [run, at - *d as usize]),
         )
     }
     #[inline(always)]
     fn pulls_own<T: Real>(self, pulls: &[T], at: usize) -> impl Iterator<Item = Vec3<Eight<T>>> {
-        (0..self.0.runs).map(
+        (0..self.layout.runs).map(
             #[inline(always)]
-            move |run| of_springs(self, pulls, [run, at]),
+            move |run| self.of_pulls(pulls, [run, at]),
         )
     }
     #[inline(always)]
-    fn pull(self, spring: [usize; 2], k: usize) -> usize {
-        self.place::<3>(spring, k)
+    fn pull(self, [run, at]: [usize; 2], k: usize) -> usize {
+        (3 * run + k) * self.layout.pulls() + at - self.from
+    }
+    #[inline(always)]
+    fn keep<T: Real>(self, pulls: &mut [T]) {
+        for plane in 0..3 * self.layout.runs {
+            let plane = pulls.get_mut(plane * self.layout.pulls()..);
+            let (kept, rest) =
+                plane.unwrap_or_default().split_at_mut_checked(self.layout.pad).unwrap_or_default();
+            let last = rest.get(self.layout.stretch() - self.layout.pad..).unwrap_or_default();
+            for (to, from) in kept.iter_mut().zip(last) {
+                *to = *from;
+            }
+        }
     }
     #[inline(always)]
     fn number<T: Real>(self, plane: &[T], at: usize) -> Eight<T> {
@@ -250,8 +292,13 @@ impl<'w> Neighbours for Slots<'w> {
         )
     }
     #[inline(always)]
-    fn each_spring(self, mut visit: impl FnMut(usize, usize, Self::Ends)) {
-        for tile in 0..self.starts.len().saturating_sub(1) {
+    fn stretch(self, first: usize) -> (Self, usize) {
+        // Of rows that are not in the scene's order any row may be above any.
+        (self, first + WIDTH * self.starts.len().saturating_sub(1))
+    }
+    #[inline(always)]
+    fn each_spring(self, [first, stop]: [usize; 2], mut visit: impl FnMut(usize, usize, Self::Ends)) {
+        for tile in first / WIDTH..stop / WIDTH {
             let slots = self.range(tile, 0);
             for (slot, ends) in slots.clone().zip(ends(self.own, slots)) {
                 visit(slot, WIDTH * tile, ends);
@@ -284,6 +331,8 @@ impl<'w> Neighbours for Slots<'w> {
     fn pull(self, slot: usize, k: usize) -> usize {
         self.place::<4>(slot, k)
     }
+    #[inline(always)]
+    fn keep<T: Real>(self, _: &mut [T]) {}
     #[inline(always)]
     fn number<T: Real>(self, plane: &[T], ends: Self::Ends) -> Eight<T> {
         let [number] = pick([plane], ends).unwrap_or([all(T::ZERO)]);

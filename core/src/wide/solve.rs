@@ -1,6 +1,6 @@
 //! A certified solve in lanes: what [`crate::solver::pcg::drive`] asks for, on planes.
 
-use crate::bound::gain;
+use crate::bound::gain_by_form;
 use crate::force::Force;
 use crate::hessian::Hessian;
 use crate::lanes::Lanes as Sums;
@@ -112,7 +112,7 @@ pub(crate) trait Preconditioner<T: Real> {
         max_iterations: u32,
         iterations: &mut u32,
     ) -> bool;
-    /// y = z = B r
+    /// y = z, B r or near it: for the lower bound, which takes any z.
     fn apply<F: Force<T>, D: Dispatch>(&mut self, of: &mut Widened<'_, '_, T, F, D>);
 }
 
@@ -320,17 +320,24 @@ impl<T: Real, F: Force<T>, D: Dispatch, P: Preconditioner<T>> pcg::Iterates<T> f
     fn lower(&mut self) -> T {
         self.preconditioner.apply(&mut self.of);
         let Widened { layout, way, front, work, system, dispatch, .. } = &mut self.of;
-        let Front { b, inertia, mu, hessians, .. } = front;
-        dispatch.run(
+        let (hessians, inertia) = (&*front.hessians, &*front.inertia);
+        let Iterates { r, p, y, .. } = work;
+        let (of_r, [mut form, mut size]) = dispatch.run(
             #[inline(always)]
             || {
-                let Iterates { r, p, y, .. } = work;
-                let of_r = bound::products(layout, r, p, y);
-                // t = r − A z into b, its δ into p.
-                residual(system, Matrix { layout, way: *way, hessians, inertia }, mu, [r, y], [b, p]);
-                gain(layout.places, of_r, bound::products(layout, b, p, y))
+                let matrix = Matrix { layout, way: *way, hessians, inertia };
+                (bound::products(layout, r, p, y), bound::form(matrix, y))
             },
-        )
+        );
+        let mut points = 0;
+        each_point(system, way, |at, h| {
+            points += 1;
+            let [energy, most] = bound::form_of_point(&h, y.row(at));
+            form.add(at, energy);
+            size.add(at, most);
+        });
+        let terms = layout.places + layout.springs + points;
+        gain_by_form(layout.places, of_r, terms, [form.sum(), size.sum()])
     }
 }
 

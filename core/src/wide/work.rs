@@ -15,15 +15,15 @@ pub(crate) struct Front<'a, T> {
     pub(crate) mu: &'a mut [T],
     /// α and w of each run's springs, planes one after the other; in slots [`NUMBERS`] of each
     pub(crate) hessians: &'a mut [T],
-    /// k and l₀ of each run's or own slot's springs, and c if there is damping
-    pub(crate) springs: &'a mut [T],
 }
 
 /// What assembly works in.
 pub(crate) struct Workshop<'a, T> {
     pub(crate) position: Planes<'a, T>,
     pub(crate) velocity: Planes<'a, T>,
-    /// Per run what each spring adds to b at its lower end, three planes; [`NUMBERS`] of each own slot
+    /// k and l₀ of each run's or own slot's springs, and c if there is damping
+    pub(crate) springs: &'a mut [T],
+    /// Per run what each spring of a stretch adds to b at its lower end, three planes; [`NUMBERS`] of each own slot
     pub(crate) pulls: &'a mut [T],
 }
 
@@ -44,7 +44,10 @@ fn of_springs(layout: &Layout, damped: bool) -> [usize; 3] {
     let constants = if damped { 3 } else { 2 };
     match &layout.slots {
         Some(Counts { own, above, .. }) => [NUMBERS * (own + above), WIDTH * constants * own, NUMBERS * own],
-        None => [4, constants, 3].map(|planes| planes * layout.runs * layout.plane()),
+        None => {
+            let of_run = [4 * layout.plane(), constants * layout.plane(), 3 * layout.pulls()];
+            of_run.map(|numbers| layout.runs * numbers)
+        }
     }
 }
 
@@ -52,7 +55,7 @@ fn of_springs(layout: &Layout, damped: bool) -> [usize; 3] {
 pub(crate) fn needs(layout: &Layout, damped: bool) -> usize {
     let [hessians, constants, pulls] = of_springs(layout, damped);
     let n = layout.plane();
-    5 * n + hessians + constants + core::cmp::max(6 * n + pulls, 18 * n)
+    5 * n + hessians + core::cmp::max(6 * n + constants + pulls, 18 * n)
 }
 
 /// Takes planes off a buffer.
@@ -78,29 +81,25 @@ impl<'a, T: Real> Cutter<'a, T> {
 }
 
 /// Cuts a buffer: the front, and what lies behind it; `None` if it is too small.
-pub(crate) fn cut<'a, T: Real>(
-    buffer: &'a mut [T],
-    layout: &Layout,
-    damped: bool,
-) -> Option<(Front<'a, T>, &'a mut [T])> {
+pub(crate) fn cut<'a, T: Real>(buffer: &'a mut [T], layout: &Layout) -> Option<(Front<'a, T>, &'a mut [T])> {
     let mut cutter = Cutter { rest: buffer, plane: layout.plane() };
-    let [hessians, constants, _] = of_springs(layout, damped);
+    let [hessians, ..] = of_springs(layout, false);
     let front = Front {
         b: cutter.vectors()?,
         inertia: cutter.plane()?,
         mu: cutter.plane()?,
         hessians: cutter.numbers(hessians)?,
-        springs: cutter.numbers(constants)?,
     };
     Some((front, cutter.rest))
 }
 
 impl<'a, T: Real> Workshop<'a, T> {
-    pub(crate) fn cut(behind: &'a mut [T], layout: &Layout) -> Option<Self> {
+    pub(crate) fn cut(behind: &'a mut [T], layout: &Layout, damped: bool) -> Option<Self> {
         let mut cutter = Cutter { rest: behind, plane: layout.plane() };
         let (position, velocity) = (cutter.vectors()?, cutter.vectors()?);
-        let [.., pulls] = of_springs(layout, false);
-        Some(Self { position, velocity, pulls: cutter.numbers(pulls)? })
+        let [_, constants, pulls] = of_springs(layout, damped);
+        let (springs, pulls) = (cutter.numbers(constants)?, cutter.numbers(pulls)?);
+        Some(Self { position, velocity, springs, pulls })
     }
 }
 

@@ -80,7 +80,7 @@ impl<'a, T: Real, D: Dispatch> Preconditioner<'a, T, D> {
 
     /// y = B r
     #[inline(always)]
-    fn cycle(&mut self, rows: &mut impl Rows<T>) {
+    fn cycle(&mut self, rows: &mut impl Rows<T>, rough: bool) {
         let most = rows.most();
         let (down, up) = (T::ONE / most, most * self.scale);
         let Some(Some(finest)) = self.hierarchy.levels.first_mut() else { return };
@@ -89,7 +89,11 @@ impl<'a, T: Real, D: Dispatch> Preconditioner<'a, T, D> {
             return rows.put(T::ONE, &finest.x);
         }
         rows.residual(down, &mut finest.r);
-        self.hierarchy.cycle(self.dispatch);
+        if rough {
+            self.hierarchy.rough_cycle(self.dispatch);
+        } else {
+            self.hierarchy.cycle(self.dispatch);
+        }
         if let Some(Some(finest)) = self.hierarchy.levels.first() {
             rows.put(up, &finest.x);
         }
@@ -98,7 +102,7 @@ impl<'a, T: Real, D: Dispatch> Preconditioner<'a, T, D> {
     /// z = B r; answers rᵀz.
     #[inline(never)]
     pub(super) fn apply(&mut self, r: &[Vec3<T>], z: &mut [Vec3<T>]) -> T {
-        self.cycle(&mut InLists { r, y: z });
+        self.cycle(&mut InLists { r, y: z }, false);
         let mut product = Lanes::new();
         for (i, (r, z)) in r.iter().zip(z).enumerate() {
             product.add(i, vec3::dot(*r, *z));
@@ -147,7 +151,7 @@ impl<T: Real, D: Dispatch> Iteration<T> for Preconditioner<'_, T, D> {
     }
 
     fn precondition<F: Force<T>>(&mut self, _: &System<'_, T, F>, v: &mut Vectors<'_, T>) {
-        self.cycle(&mut InLists { r: v.r, y: v.y });
+        self.cycle(&mut InLists { r: v.r, y: v.y }, true);
     }
 }
 
@@ -165,6 +169,6 @@ impl<T: Real, D: Dispatch> wide::solve::Preconditioner<T> for Preconditioner<'_,
 
     #[inline(never)]
     fn apply<F: Force<T>, E: Dispatch>(&mut self, of: &mut Widened<'_, '_, T, F, E>) {
-        self.cycle(of);
+        self.cycle(of, true);
     }
 }
