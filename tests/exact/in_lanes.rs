@@ -180,3 +180,29 @@ fn where_no_tolerance_is_given_the_floor_is_the_end_in_lanes_as_without() {
         }
     }
 }
+
+#[test]
+fn springs_without_a_length_are_replaced_in_lanes_as_without() {
+    for data in nets() {
+        for l0 in [0.0, 0.2] {
+            let mut data = data.clone();
+            for j in [2, 9, data.springs.len() - 3] {
+                let SpringData { a, b, .. } = data.springs[j];
+                data.position[b] = data.position[a];
+                data.springs[j].l0 = l0;
+            }
+            // From rest at their lengths otherwise, so that nothing else is clamped.
+            for j in 0..data.springs.len() {
+                let SpringData { a, b, .. } = data.springs[j];
+                let away = hooke_tests::data::distance(data.position[a], data.position[b]);
+                if away > 0.0 {
+                    data.springs[j].l0 = away;
+                }
+            }
+            let report = as_without(&data, &[]);
+            let replaced = data.springs.iter().filter(|s| data.position[s.a] == data.position[s.b]).count();
+            let counted = if l0 > 0.0 { replaced as u32 } else { 0 };
+            assert_eq!((report.clamped, report.certified), (counted, u32::from(counted == 0)), "l0 = {l0}");
+        }
+    }
+}
