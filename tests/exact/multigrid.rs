@@ -310,6 +310,30 @@ fn after_a_change_of_pins_or_springs_the_hierarchy_is_found_anew() {
 }
 
 #[test]
+fn as_many_springs_that_lead_elsewhere_are_another_pattern() {
+    let first = moved(generate::cloth(7), 3);
+    let bits = |data: &SceneData, solver: &mut dyn FnMut(&mut VecScene<f64>)| {
+        let mut scene = build::scene::<f64>(data);
+        solver(&mut scene);
+        build::bits(&scene)
+    };
+    let step = |data: &SceneData, scene: &mut VecScene<f64>, kept: &mut Multigrid<Vec<f32>, Vec<u32>>| {
+        scene.step(&mut Forces::<f64>::new(data).euler(H).tolerance(1e-3).solver(&mut *kept)).unwrap();
+    };
+    for j in [3, 20, 41, first.springs.len() - 5] {
+        let mut second = first.clone();
+        let ends = (second.springs[j].a + 17) % second.len();
+        second.springs[j].b = ends;
+        let mut kept = multigrid(&first);
+        for data in [&first, &second, &first] {
+            let found = bits(data, &mut |scene| step(data, scene, &mut kept));
+            let fresh = bits(data, &mut |scene| step(data, scene, &mut multigrid(data)));
+            assert_eq!(found, fresh, "spring {j}");
+        }
+    }
+}
+
+#[test]
 fn too_little_workspace_is_an_error_that_says_how_much_is_needed_and_changes_nothing() {
     let data = held(9);
     let mut scene = build::scene::<f64>(&data);
