@@ -130,6 +130,7 @@ fn every_level_is_the_galerkin_matrix_of_the_one_before() {
                 (0..9).for_each(|k| matrix[(3 * a + k / 3, 3 * b + k % 3)] += block[k / 3][k % 3]);
             };
             system.blocks(|a, b, block| add(&mut expected, a, b, block.map(|row| row.map(|x| x / scale))));
+            assert!(up.last().unwrap().is_empty(), "the coarsest level has no next one");
             for (l, level) in levels.iter().enumerate() {
                 let n = expected.nrows();
                 let mut seen = DMatrix::zeros(n, n);
