@@ -21,6 +21,7 @@ mod energy;
 mod errors;
 mod extremes;
 mod forces;
+mod hierarchy;
 mod in_lanes;
 mod in_place;
 mod islands;

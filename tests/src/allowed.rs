@@ -86,6 +86,9 @@ pub const CYCLE: f64 = 16.0;
 /// An entry of a level's matrix in f32 against PᵀAP of the level before, in units of u of f32 and the largest entry: sums of
 /// at most 8 rows' masses or 64 springs (derived: each addition loses u, most far less).
 pub const GALERKIN: f64 = 64.0;
+/// One cycle of multigrid against the same in f64, relative to its largest component, in units of u of f32 (measured: 58.5
+/// on the nets of `exact/hierarchy.rs`, twofold).
+pub const WRITTEN_CYCLE: f64 = 120.0;
 /// A row of M z − r, M = (P + L)P⁻¹(P + Lᵀ), in units of u·(|P + L||P⁻¹||P + Lᵀ||z|) of that row
 /// (measured: 15.3 on the nets of `exact/preconditioned.rs`, fourfold).
 pub const TRIANGULAR: f64 = 64.0;
