@@ -157,7 +157,7 @@ fn lanes_give_the_plain_solvers_bits<T: Real, L: Law>(
     add: Add<T, L>,
     r: f64,
     steps: usize,
-) {
+) -> u32 {
     let build = || {
         let mut scene = VecScene::<T, L>::empty();
         for i in 0..data.len() {
@@ -175,16 +175,17 @@ fn lanes_give_the_plain_solvers_bits<T: Real, L: Law>(
     let mut solver = WideJacobi::new(vec![T::ONE; numbers], vec![7; words], Host::new());
     let expected = run(data, &mut plain, &mut BlockJacobi, r, steps).0;
     let (found, report) = run(data, &mut lanes, &mut solver, r, steps);
-    assert!(solver.in_lanes() && report.clamped > 0 && report.iterations > 5, "{report:?}");
+    assert!(solver.in_lanes() && report.clamped > 0, "{report:?}");
     assert_eq!(found, expected);
+    report.iterations
 }
 
 #[test]
 fn where_springs_come_in_order_lanes_give_the_plain_solvers_bits() {
     let data = in_order(13);
-    lanes_give_the_plain_solvers_bits::<f64, Hookean>(&data, springs_only, 1e-8, 20);
-    lanes_give_the_plain_solvers_bits::<f32, Hookean>(&data, springs_only, 1e-4, 20);
-    lanes_give_the_plain_solvers_bits::<f64, Mixed>(&data, every_third_a_cable, 1e-8, 20);
+    assert!(lanes_give_the_plain_solvers_bits::<f64, Hookean>(&data, springs_only, 1e-8, 20) > 10);
+    assert!(lanes_give_the_plain_solvers_bits::<f32, Hookean>(&data, springs_only, 1e-4, 20) > 10);
+    assert!(lanes_give_the_plain_solvers_bits::<f64, Mixed>(&data, every_third_a_cable, 1e-8, 20) > 10);
 }
 
 /// Two rails of n particles with rungs between them: springs at distances 1 and n, pressed to nine tenths of their lengths.
@@ -209,9 +210,9 @@ fn nets_of_several_stretches_of_rows_have_the_plain_solvers_bits() {
     let mut sheet = in_order(48);
     sheet.springs.iter_mut().for_each(|spring| spring.l0 *= 1.1);
     for data in [sheet, ladder(700), ladder(1100), ladder(3000)] {
-        lanes_give_the_plain_solvers_bits::<f64, Hookean>(&data, springs_only, 1e-6, 1);
-        lanes_give_the_plain_solvers_bits::<f32, Hookean>(&data, springs_only, 1e-5, 1);
-        lanes_give_the_plain_solvers_bits::<f64, Mixed>(&data, every_third_a_cable, 1e-6, 1);
+        assert!(lanes_give_the_plain_solvers_bits::<f64, Hookean>(&data, springs_only, 1e-6, 1) > 5);
+        assert!(lanes_give_the_plain_solvers_bits::<f32, Hookean>(&data, springs_only, 1e-5, 1) > 5);
+        assert!(lanes_give_the_plain_solvers_bits::<f64, Mixed>(&data, every_third_a_cable, 1e-6, 1) > 5);
     }
 }
 
