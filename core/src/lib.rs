@@ -67,4 +67,4 @@ pub use spring::{Spring, Stretched};
 pub use sym3::Sym3;
 pub use system::{Operator, System};
 pub use vec3::Vec3;
-pub use wide::{Dispatch, Portable, Wide, WideJacobi};
+pub use wide::{Dispatch, Portable, SingleJacobi, Wide, WideJacobi};

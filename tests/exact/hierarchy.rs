@@ -108,7 +108,7 @@ fn cycle(levels: &[Level], steps: usize, b: &Vectors, x: &mut Vectors) {
         (0..2).for_each(|_| cycle(rest, 2, &below, &mut coarse));
         coarse
     };
-    x.iter_mut().zip(&level.up).for_each(|(x, to)| *x += 1.5 * coarse[*to]);
+    x.iter_mut().zip(&level.up).for_each(|(x, to)| *x += coarse[*to]);
     level.smooth(b, x, steps);
 }
 

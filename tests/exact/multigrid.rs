@@ -1,4 +1,4 @@
-//! Multigrid: its cycle is a symmetric positive operator made of PᵀAP on every level, iterations hardly grow with the net,
+//! Multigrid: its cycle is a symmetric positive operator made of Pᵀ(M + K/ω)P on every level, iterations hardly grow with the net,
 //! and memory, registers, other islands or an earlier pattern touch no bit.
 
 use hooke::solver::LevelPart;
@@ -10,7 +10,7 @@ use hooke_tests::multigrid::multigrid;
 use hooke_tests::random::Random;
 use hooke_tests::vec_memory::VecScene;
 use hooke_tests::{allowed, generate};
-use nalgebra::DMatrix;
+use nalgebra::{DMatrix, DVector};
 
 const H: f64 = 1.0 / 60.0;
 
@@ -107,6 +107,10 @@ fn the_cycle_is_a_symmetric_positive_operator_in_f32() {
     the_cycle_is_symmetric_and_positive::<f32>();
 }
 
+/// What a level's springs are divided by for the next.
+const SOFTER: f64 = 1.6;
+
+/// A level is that of the masses and, ω times softer, of the springs of the one before.
 #[test]
 fn every_level_is_the_galerkin_matrix_of_the_one_before() {
     for data in nets() {
@@ -130,6 +134,9 @@ fn every_level_is_the_galerkin_matrix_of_the_one_before() {
                 (0..9).for_each(|k| matrix[(3 * a + k / 3, 3 * b + k % 3)] += block[k / 3][k % 3]);
             };
             system.blocks(|a, b, block| add(&mut expected, a, b, block.map(|row| row.map(|x| x / scale))));
+            let free = (0..data.len()).filter(|i| !data.pinned[*i]);
+            let mass = free.flat_map(|i| [data.mass[i] * (1.0 + H * data.drag) / scale; 3]);
+            let mut masses = DMatrix::from_diagonal(&DVector::from_iterator(3 * rows, mass));
             assert!(up.last().unwrap().is_empty(), "the coarsest level has no next one");
             for (l, level) in levels.iter().enumerate() {
                 let n = expected.nrows();
@@ -147,7 +154,8 @@ fn every_level_is_the_galerkin_matrix_of_the_one_before() {
                     for (row, to) in &up[l] {
                         (0..3).for_each(|k| p[(3 * row + k, 3 * to + k)] = 1.0);
                     }
-                    expected = p.transpose() * seen * p;
+                    let soft = &masses + (seen - &masses) / SOFTER;
+                    (expected, masses) = (p.transpose() * soft * &p, p.transpose() * masses * &p);
                 }
             }
             assert!(rows <= 24 || levels.len() >= 2, "{rows} rows on {} levels", levels.len());

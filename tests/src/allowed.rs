@@ -83,7 +83,7 @@ pub const BUNNY: f64 = 1e-9;
 /// Asymmetry of multigrid's cycle, |sᵀBr − rᵀBs|/√(rᵀBr·sᵀBs) in units of u of f32 (measured: 1.9
 /// on the nets of `exact/multigrid.rs`, eightfold).
 pub const CYCLE: f64 = 16.0;
-/// An entry of a level's matrix in f32 against PᵀAP of the level before, in units of u of f32 and the largest entry: sums of
+/// An entry of a level's matrix in f32 against Pᵀ(M + K/ω)P of the level before, in units of u of f32 and the largest entry: sums of
 /// at most 8 rows' masses or 64 springs (derived: each addition loses u, most far less).
 pub const GALERKIN: f64 = 64.0;
 /// One cycle of multigrid against the same in f64, relative to its largest component, in units of u of f32 (measured: 58.5

@@ -79,6 +79,11 @@ pub(crate) trait Iterates<T: Real> {
     /// Iterates from x and r until β ≤ target or the number of iterations is used up; answers whether it broke down
     /// (pᵀAp ≤ 0 or NaN).
     fn iterate(&mut self, target: T, max_iterations: u32, iterations: &mut u32) -> bool;
+    /// Is there a more robust way to iterate? If so, [`Iterates::iterate`] takes it from now on.
+    #[inline(always)]
+    fn fall_back(&mut self) -> bool {
+        false
+    }
     /// Nothing that ½‖e‖²_A can exceed.
     fn upper(&mut self) -> T;
     /// ½‖e‖²_A is at least this. Spoils all vectors but x.
@@ -133,7 +138,7 @@ pub(crate) fn drive<T: Real>(v: &mut impl Iterates<T>, stop: &Stop<T>, free: boo
         // What acts on the island as a whole it follows as a whole, whatever the tolerance.
         from = v.check(true);
     }
-    let (mut iterations, mut stuck) = (0, false);
+    let (mut iterations, mut stuck, mut fallback) = (0, false, false);
     let mut ending = if from <= goal && from.is_finite() { Some(Ending::Untouched) } else { None };
     let mut reached = from;
     while ending.is_none() {
@@ -152,14 +157,21 @@ pub(crate) fn drive<T: Real>(v: &mut impl Iterates<T>, stop: &Stop<T>, free: boo
             Some(Ending::Capped)
         } else if stuck || !(reached < T::HALF * from) {
             let rounding = v.attainable(iterations - before);
-            Some(if reached <= rounding { Ending::Floor } else { Ending::Stalled })
+            if reached <= rounding {
+                Some(Ending::Floor)
+            } else if v.fall_back() {
+                fallback = true;
+                None
+            } else {
+                Some(Ending::Stalled)
+            }
         } else {
             None
         };
         from = reached;
     }
     let (upper, lower) = (v.upper(), v.lower());
-    Solve { iterations, upper, lower, ending: ending.unwrap_or(Ending::Stalled), fallback: false }
+    Solve { iterations, upper, lower, ending: ending.unwrap_or(Ending::Stalled), fallback }
 }
 
 /// The scene's own vectors, and what iterates in them.

@@ -13,7 +13,8 @@ use crate::wide::eight::{all, load};
 use crate::wide::gather::Matrix;
 use crate::wide::neighbours::Runs;
 use crate::wide::pieces::{self, Last, Rows};
-use crate::wide::solve::{Diagonal, Lanes, Widened, each_point, invert_diagonal};
+use crate::wide::jacobi::Diagonal;
+use crate::wide::solve::{Lanes, Widened, each_point};
 
 /// Solves a chain; the answer goes to `x`.
 pub(crate) fn solve<T: Real, F: Force<T>, D: Dispatch>(
@@ -72,12 +73,11 @@ fn refine<T: Real, F: Force<T>, D: Dispatch>(
         from = reached;
     }
     let Some(ending) = ending.filter(|_| sound) else {
-        let Widened { layout, way, front, work, system, dispatch, .. } = &mut lanes.of;
         // Twice inverted, μ is off by two roundings: the bounds' cover has room for more.
-        for mu in front.mu.iter_mut() {
+        for mu in lanes.of.front.mu.iter_mut() {
             *mu = if *mu > T::ZERO { T::ONE / *mu } else { T::ZERO };
         }
-        invert_diagonal(layout, way, front, work, system, *dispatch);
+        lanes.of.invert_diagonal();
         let left = Stop { max_iterations: stop.max_iterations.saturating_sub(iterations), ..*stop };
         let solve = drive(lanes, &left, free);
         return Solve { iterations: solve.iterations.saturating_add(iterations), fallback: true, ..solve };

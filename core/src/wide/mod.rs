@@ -27,11 +27,13 @@ pub(crate) mod dispatch;
 pub(crate) mod eight;
 pub(crate) mod gather;
 pub(crate) mod island;
+pub(crate) mod jacobi;
 pub(crate) mod layout;
 pub(crate) mod load;
 pub(crate) mod neighbours;
 pub(crate) mod pieces;
 pub(crate) mod product;
+pub(crate) mod single;
 pub(crate) mod slots;
 pub(crate) mod solve;
 pub(crate) mod sweep;
@@ -54,6 +56,7 @@ use island::Givens;
 use layout::Layout;
 use neighbours::Way;
 use slots::NUMBERS;
+pub use single::SingleJacobi;
 pub use solve::Widened;
 use work::{Front, Iterates, Workshop};
 
@@ -82,7 +85,8 @@ impl<N, W, D: Dispatch> Wide<N, W, D> {
         Self { numbers, words, dispatch, preconditioner: BlockJacobi, layout, found: false, damped: false }
     }
 
-    /// The same with another preconditioner, [`crate::Multigrid`], or around a direct solver, [`crate::BandedLdl`].
+    /// The same with another preconditioner, [`crate::Multigrid`], with iterations in f32, [`crate::SingleJacobi`], or around a direct
+    /// solver, [`crate::BandedLdl`].
     pub fn around<P>(self, preconditioner: P) -> Wide<N, W, D, P> {
         let Self { numbers, words, dispatch, layout, .. } = self;
         Wide { numbers, words, dispatch, preconditioner, layout, found: false, damped: false }
@@ -109,19 +113,26 @@ impl Wide<(), ()> {
         damped: bool,
         mut takes: impl FnMut(&Layout) -> bool,
     ) -> (usize, usize) {
-        let parts = scene.parts();
-        let state = parts.network.state();
         let (mut numbers, mut words) = (0, 0);
-        for k in 0..parts.islands.count {
-            let mut island = parts.islands.island(k, parts.work, &state);
-            if let Some(layout) = Layout::of(&mut island)
-                && takes(&layout)
-            {
-                numbers = core::cmp::max(numbers, work::needs(&layout, damped));
+        layouts_of(scene, |layout| {
+            if takes(layout) {
+                numbers = core::cmp::max(numbers, work::needs(layout, damped));
                 words = core::cmp::max(words, layout.words());
             }
-        }
+        });
         (numbers, words)
+    }
+}
+
+/// Visits the layouts of a scene's islands.
+pub(crate) fn layouts_of<M: Memory>(scene: &mut MassSpring<M>, mut visit: impl FnMut(&Layout)) {
+    let parts = scene.parts();
+    let state = parts.network.state();
+    for k in 0..parts.islands.count {
+        let mut island = parts.islands.island(k, parts.work, &state);
+        if let Some(layout) = Layout::of(&mut island) {
+            visit(&layout);
+        }
     }
 }
 
@@ -232,7 +243,7 @@ impl<T: Real> Preconditions<T> for BlockJacobi {
         stop: &Stop<T>,
     ) -> Result<Solve<T>, StepError> {
         lanes.invert_diagonal();
-        Ok(lanes.solve(solve::Diagonal, x, stop))
+        Ok(lanes.solve(jacobi::Diagonal, x, stop))
     }
 }
 

@@ -4,19 +4,19 @@ use crate::bound::gain_by_form;
 use crate::force::Force;
 use crate::hessian::Hessian;
 use crate::lanes::Lanes as Sums;
-use crate::real::Real;
+use crate::real::{Real, larger};
 use crate::report::Solve;
 use crate::solver::{Stop, pcg};
-use crate::sym3::Sym3;
 use crate::system::System;
 use crate::vec3::{self, Vec3};
 use crate::wide::dispatch::Dispatch;
 use crate::wide::eight::{Planes, all, load, store, where_positive};
 use crate::wide::gather::Matrix;
 use crate::wide::layout::Layout;
-use crate::wide::neighbours::{Way, either};
+use crate::wide::neighbours::Way;
 use crate::wide::work::{Front, Iterates};
-use crate::wide::{bound, diagonal, product, sweep};
+use crate::wide::jacobi::same;
+use crate::wide::{bound, jacobi, product, sweep};
 
 /// One island in lanes, assembled; opaque.
 pub struct Widened<'s, 'a, T, F, D> {
@@ -34,7 +34,43 @@ impl<T: Real, F: Force<T>, D: Dispatch> Widened<'_, '_, T, F, D> {
     /// D⁻¹ into the work.
     pub(crate) fn invert_diagonal(&mut self) {
         let Self { layout, way, front, work, system, dispatch, .. } = self;
-        invert_diagonal(layout, way, front, work, system, *dispatch);
+        let Front { inertia, hessians, .. } = &*front;
+        let matrix = Matrix { layout, way: *way, hessians, inertia };
+        jacobi::invert(matrix, &mut work.inverse, system, &same, *dispatch);
+    }
+
+    /// The largest 1/μ.
+    #[inline(always)]
+    pub(crate) fn heaviest(&mut self) -> T {
+        let mut most = all(T::ZERO);
+        for at in self.layout.tiles() {
+            most = sweep::larger_lanes(most, load(self.front.mu, at));
+        }
+        most.0.iter().fold(T::ZERO, |most, x| larger(most, *x))
+    }
+
+    /// r −= A y; p is spoilt.
+    #[inline(always)]
+    pub(crate) fn renew(&mut self) {
+        let Self { layout, way, front, work, system, dispatch, .. } = self;
+        dispatch.run(
+            #[inline(always)]
+            || {
+                let Iterates { r, p, y, .. } = &mut *work;
+                let (hessians, inertia) = (&*front.hessians, &*front.inertia);
+                product::over_runs(Matrix { layout, way: *way, hessians, inertia }, y, p);
+                each_point(
+                    system,
+                    way,
+                    #[inline(always)]
+                    |at, h| p.put(at, vec3::add(p.row(at), h.mul(y.row(at)))),
+                );
+                for at in layout.tiles() {
+                    let left = vec3::sub(r.load(at), p.load(at));
+                    r.store(at, left);
+                }
+            },
+        );
     }
 
     /// Solves it; the answer goes to `x`.
@@ -68,34 +104,6 @@ impl<T: Real, F: Force<T>, D: Dispatch, P> Lanes<'_, '_, T, F, D, P> {
     }
 }
 
-/// D⁻¹ into the work.
-pub(crate) fn invert_diagonal<T: Real, F: Force<T>, D: Dispatch>(
-    layout: &Layout,
-    way: &Way<'_>,
-    front: &Front<'_, T>,
-    work: &mut Iterates<'_, T>,
-    system: &System<'_, T, F>,
-    dispatch: D,
-) {
-    let Front { inertia, hessians, .. } = front;
-    dispatch.run(
-        #[inline(always)]
-        || either!(*way, neighbours => diagonal::blocks(neighbours, layout, hessians, inertia, &mut work.inverse)),
-    );
-    each_point(system, way, |at, h| {
-        let added = Sym3::scalar(h.alpha).plus_outer(h.w).0;
-        for (plane, added) in work.inverse.iter_mut().zip(added) {
-            if let Some(entry) = plane.get_mut(at) {
-                *entry += added;
-            }
-        }
-    });
-    dispatch.run(
-        #[inline(always)]
-        || diagonal::invert(layout, inertia, &mut work.inverse),
-    );
-}
-
 /// The same with what preconditions it.
 pub(crate) struct Lanes<'s, 'a, T, F, D, P> {
     pub(crate) of: Widened<'s, 'a, T, F, D>,
@@ -114,72 +122,10 @@ pub(crate) trait Preconditioner<T: Real> {
     ) -> bool;
     /// y = z, B r or near it: for the lower bound, which takes any z.
     fn apply<F: Force<T>, D: Dispatch>(&mut self, of: &mut Widened<'_, '_, T, F, D>);
-}
-
-/// D⁻¹, which lies in the work.
-pub(crate) struct Diagonal;
-
-impl<T: Real> Preconditioner<T> for Diagonal {
+    /// See [`pcg::Iterates::fall_back`].
     #[inline(always)]
-    fn iterate<F: Force<T>, D: Dispatch>(
-        &mut self,
-        of: &mut Widened<'_, '_, T, F, D>,
-        target: T,
-        max_iterations: u32,
-        iterations: &mut u32,
-    ) -> bool {
-        let Widened { layout, way, front, work, system, dispatch, .. } = of;
-        dispatch.run(
-            #[inline(always)]
-            || {
-                for at in layout.tiles() {
-                    for planes in [&mut work.p, &mut work.y] {
-                        planes.store(at, [all(T::ZERO); 3]);
-                    }
-                }
-                // The first sweep has no step to make: it finds z.
-                let (mut step, mut rz) = (T::ZERO, T::ZERO);
-                loop {
-                    let (beta, next) = sweep::sweep(layout, work, front.mu, step);
-                    if !(T::HALF * beta > target) || *iterations >= max_iterations {
-                        return false;
-                    }
-                    if !(next > T::ZERO) {
-                        return true;
-                    }
-                    sweep::direction(layout, work, if rz > T::ZERO { next / rz } else { T::ZERO });
-                    let Iterates { p, y, .. } = &mut *work;
-                    let (hessians, inertia) = (&*front.hessians, &*front.inertia);
-                    let mut form = product::over_runs(Matrix { layout, way: *way, hessians, inertia }, p, y);
-                    each_point(
-                        system,
-                        way,
-                        #[inline(always)]
-                        |at, h| {
-                            let (product, energy) = h.mul_and_form(p.row(at));
-                            y.put(at, vec3::add(y.row(at), product));
-                            form.add(at, energy);
-                        },
-                    );
-                    let curvature = form.sum();
-                    if !(curvature > T::ZERO) {
-                        return true;
-                    }
-                    step = next / curvature;
-                    rz = next;
-                    *iterations += 1;
-                }
-            },
-        )
-    }
-
-    #[inline(always)]
-    fn apply<F: Force<T>, D: Dispatch>(&mut self, of: &mut Widened<'_, '_, T, F, D>) {
-        let Widened { layout, work, dispatch, .. } = of;
-        dispatch.run(
-            #[inline(always)]
-            || sweep::precondition(layout, work),
-        );
+    fn fall_back<F: Force<T>, D: Dispatch>(&mut self, _: &mut Widened<'_, '_, T, F, D>) -> bool {
+        false
     }
 }
 
@@ -307,6 +253,10 @@ impl<T: Real, F: Force<T>, D: Dispatch, P: Preconditioner<T>> pcg::Iterates<T> f
 
     fn iterate(&mut self, target: T, max_iterations: u32, iterations: &mut u32) -> bool {
         self.preconditioner.iterate(&mut self.of, target, max_iterations, iterations)
+    }
+
+    fn fall_back(&mut self) -> bool {
+        self.preconditioner.fall_back(&mut self.of)
     }
 
     fn upper(&mut self) -> T {

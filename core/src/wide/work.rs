@@ -51,6 +51,12 @@ fn of_springs(layout: &Layout, damped: bool) -> [usize; 3] {
     }
 }
 
+/// How many numbers the springs' Hessians are.
+pub(crate) fn hessians_of(layout: &Layout) -> usize {
+    let [hessians, ..] = of_springs(layout, false);
+    hessians
+}
+
 /// Numbers of a layout.
 pub(crate) fn needs(layout: &Layout, damped: bool) -> usize {
     let [hessians, constants, pulls] = of_springs(layout, damped);
@@ -83,12 +89,11 @@ impl<'a, T: Real> Cutter<'a, T> {
 /// Cuts a buffer: the front, and what lies behind it; `None` if it is too small.
 pub(crate) fn cut<'a, T: Real>(buffer: &'a mut [T], layout: &Layout) -> Option<(Front<'a, T>, &'a mut [T])> {
     let mut cutter = Cutter { rest: buffer, plane: layout.plane() };
-    let [hessians, ..] = of_springs(layout, false);
     let front = Front {
         b: cutter.vectors()?,
         inertia: cutter.plane()?,
         mu: cutter.plane()?,
-        hessians: cutter.numbers(hessians)?,
+        hessians: cutter.numbers(hessians_of(layout))?,
     };
     Some((front, cutter.rest))
 }

@@ -1,5 +1,6 @@
-//! The numbers of every level, new in each step: A_{l+1} = PᵀA_l P with P piecewise constant. In spring form that is all
-//! sums: of an aggregate's masses and held blocks, of the blocks of edges between two aggregates; edges inside one vanish.
+//! The numbers of every level, new in each step: A_{l+1} = Pᵀ(M_l + K_l/ω)P with P piecewise constant, A_l = M_l + K_l. In spring
+//! form that is all sums: of an aggregate's masses and held blocks, of the blocks of edges between two aggregates; edges inside
+//! one vanish.
 //!
 //! All is divided by σ, the largest mass or stiffness of the island, so that f32 holds it.
 
@@ -34,6 +35,15 @@ fn add_to_row(held: &mut [[f32; 6]], row: usize, block: [f32; 6]) {
             *held += value;
         }
     }
+}
+
+/// 1/ω: what a level's springs are to the next. Piecewise constant functions are too stiff there by about ω; masses are as they
+/// are.
+const SOFTER: f32 = 1.0 / 1.6;
+
+#[inline(always)]
+fn softer(block: [f32; FULL]) -> [f32; FULL] {
+    block.map(|entry| entry * SOFTER)
 }
 
 impl Level<'_> {
@@ -101,7 +111,7 @@ impl Level<'_> {
         }
     }
 
-    /// Pᵀ`fine`P
+    /// Pᵀ`fine`P with softer springs.
     #[inline(never)]
     pub(super) fn coarsen(&mut self, fine: &Level<'_>) {
         self.clear();
@@ -114,7 +124,8 @@ impl Level<'_> {
         for row in pattern.held_rows.iter().take(fine.held_count) {
             let row = *row as usize;
             let aggregate = get(pattern.aggregate, row) as usize;
-            add_to_row(self.held, aggregate, fine.held.get(row).copied().unwrap_or_default());
+            let held = fine.held.get(row).copied().unwrap_or_default();
+            add_to_row(self.held, aggregate, softer(held));
         }
         if fine.held_count > 0 {
             self.list_held();
@@ -127,7 +138,7 @@ impl Level<'_> {
             } else {
                 full(fine.blocks, first_number::<FULL>(*from))
             };
-            let [place, _] = *places;
+            let (block, [place, _]) = (softer(block), *places);
             if place & LOOSE != 0 {
                 add_loose(self.loose, place, block);
                 continue;

@@ -1,15 +1,7 @@
-//! PCG around the cycle, in f32 on the finest level like the cycle itself: the iterations of [`crate::solver::pcg`] for A c = r,
-//! where x + c is what x is to become.
-//!
-//! f32 loses what c is made of after some iterations, so c is handed out when Σ|rᵢ|²/μᵢ has fallen by [`FALL`], and r comes anew,
-//! computed outside in the precision of the scene. The direction p stays, so few iterations are lost. r comes divided by the
-//! largest component that it had at first, since f32 would lose a small one, 1/μ by the largest, and A times 1/σ.
+//! PCG around the cycle, in f32 on the finest level like the cycle itself, refined from outside ([`crate::solver::refinement`]).
 //!
 //! Measured against iterations in f64 around the same cycle (cloth:32, :64, :128, R = 1e-3 and 1e-6): as many iterations (to
-//! 1e-10 and beyond up to a fifth more), each shorter by a fifth on the smallest and by three tenths on the largest. [`FALL`] from 1e-3 to 1e-9 makes no difference that is not chance;
-//! this one asks for no new residual before R = 1e-3 is reached.
-//!
-//! Source: van der Vorst & Ye 2000, *Residual replacement strategies for Krylov subspace iterative methods*.
+//! 1e-10 and beyond up to a fifth more), each shorter by a fifth on the smallest and by three tenths on the largest.
 
 use super::block::Tied;
 use super::cycle::Hierarchy;
@@ -18,13 +10,12 @@ use super::planes::{Planes, cut, plane, read, write};
 use super::product::{subtract, subtract_held, subtract_loose};
 use super::tile::{Tile, Tile3, WIDTH, add, add3, dot, scale};
 use super::words::take;
-use crate::real::{Real, larger};
+use crate::real::Real;
+use crate::solver::refinement::{Group, Refines};
 use crate::wide::Dispatch;
 
 /// Planes: c, r, p, 1/μ.
 const PLANES: usize = 10;
-/// Of Σ|rᵢ|²/μᵢ, until c is handed out.
-const FALL: f32 = 1e-7;
 
 /// Numbers for so many rows.
 pub(super) const fn numbers(rows: usize) -> usize {
@@ -77,74 +68,77 @@ impl<'a> Inner<'a> {
     }
 }
 
-/// Iterates as [`crate::solver::pcg::Iterates::iterate`] says; `scale` is 1/σ.
-#[inline(always)]
-pub(super) fn iterate<T: Real>(
-    (hierarchy, inner): (&mut Hierarchy<'_>, &mut Inner<'_>),
-    outer: &mut impl Outer<T>,
-    scale: T,
-    (target, max_iterations): (T, u32),
-    iterations: &mut u32,
-    dispatch: impl Dispatch,
-) -> bool {
-    let (most, heaviest) = (outer.most(), outer.heaviest());
-    let (down, up, lighter) = (T::ONE / most, most * scale, T::ONE / heaviest);
-    if !(most > T::ZERO && down.is_finite() && up.is_finite() && lighter.is_finite()) {
-        return true;
+/// A hierarchy with the vectors of the iterations and those of the scene, `scale` being 1/σ.
+pub(super) struct Refined<'r, 'a, O, T, D> {
+    pub(super) hierarchy: &'r mut Hierarchy<'a>,
+    pub(super) inner: &'r mut Inner<'a>,
+    pub(super) outer: &'r mut O,
+    pub(super) scale: T,
+    pub(super) dispatch: D,
+}
+
+impl<T: Real, O: Outer<T>, D: Dispatch> Refines<T> for Refined<'_, '_, O, T, D> {
+    #[inline(always)]
+    fn scale(&self) -> T {
+        self.scale
     }
-    // ½ Σ|rᵢ|²/μᵢ of what is 1 here; where that is below or beyond the numbers, no target is known and FALL alone ends a group.
-    let unit = T::HALF * (most * heaviest) * most;
-    let known = unit > T::ZERO && unit.is_finite();
-    let target = if known { (target / unit).to_f64() as f32 } else { 0.0 };
-    // Behind the last row a tile has zeros.
-    inner.weight.fill(0.0);
-    outer.weights(lighter, inner.weight);
-    inner.r.clear();
-    inner.p.clear();
-    let (mut rz, mut before) = (0.0, f32::INFINITY);
-    loop {
-        outer.residual(down, &mut inner.r);
-        let Some(Some(finest)) = hierarchy.levels.first_mut() else { return true };
-        inner.c.clear();
+    #[inline(always)]
+    fn most(&mut self) -> T {
+        self.outer.most()
+    }
+    #[inline(always)]
+    fn heaviest(&mut self) -> T {
+        self.outer.heaviest()
+    }
+    #[inline(always)]
+    fn begin(&mut self, lighter: T) {
+        // Behind the last row a tile has zeros.
+        self.inner.weight.fill(0.0);
+        self.outer.weights(lighter, self.inner.weight);
+        self.inner.r.clear();
+        self.inner.p.clear();
+    }
+    #[inline(always)]
+    fn residual(&mut self, down: T) -> f32 {
+        self.outer.residual(down, &mut self.inner.r);
+        let Some(Some(finest)) = self.hierarchy.levels.first_mut() else { return f32::NAN };
+        self.inner.c.clear();
         finest.r.clear();
-        let mut beta = inner.update(0.0, finest, dispatch);
-        // What was handed out has not helped by much: the limit of this precision is near.
-        if !(beta < 0.5 * before) {
-            return false;
-        }
-        before = beta;
-        let goal = larger(target, FALL * beta);
-        let (first, mut broken) = (*iterations, false);
-        while beta > goal && *iterations < max_iterations {
-            hierarchy.cycle(dispatch);
-            let Some(Some(finest)) = hierarchy.levels.first_mut() else { return true };
-            let next = inner.dot(finest, dispatch);
-            broken = !(next > 0.0);
-            if broken {
-                break;
+        self.inner.update(0.0, finest, self.dispatch)
+    }
+    #[inline(always)]
+    fn iterate(&mut self, group: Group, rz: &mut f32, iterations: &mut u32) -> (f32, bool) {
+        let Self { hierarchy, inner, dispatch, .. } = self;
+        let mut beta = group.beta;
+        while beta > group.goal && *iterations < group.max_iterations {
+            hierarchy.cycle(*dispatch);
+            let Some(Some(finest)) = hierarchy.levels.first_mut() else { return (beta, true) };
+            let next = inner.dot(finest, *dispatch);
+            if !(next > 0.0) {
+                return (beta, true);
             }
-            let curvature = inner.product(if rz > 0.0 { next / rz } else { 0.0 }, finest, dispatch);
-            broken = !(curvature > 0.0);
-            if broken {
-                break;
+            let curvature = inner.product(if *rz > 0.0 { next / *rz } else { 0.0 }, finest, *dispatch);
+            if !(curvature > 0.0) {
+                return (beta, true);
             }
-            rz = next;
-            beta = inner.update(next / curvature, finest, dispatch);
+            *rz = next;
+            beta = inner.update(next / curvature, finest, *dispatch);
             *iterations += 1;
         }
-        if *iterations == first {
-            return broken;
-        }
-        outer.put(up, &inner.c);
-        outer.add();
-        if !(beta > target) || *iterations >= max_iterations {
-            return false;
-        }
-        outer.renew();
-        if broken {
-            inner.p.clear();
-            rz = 0.0;
-        }
+        (beta, false)
+    }
+    #[inline(always)]
+    fn hand_out(&mut self, up: T) {
+        self.outer.put(up, &self.inner.c);
+        self.outer.add();
+    }
+    #[inline(always)]
+    fn renew(&mut self) {
+        self.outer.renew();
+    }
+    #[inline(always)]
+    fn forget(&mut self) {
+        self.inner.p.clear();
     }
 }
 

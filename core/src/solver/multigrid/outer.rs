@@ -10,11 +10,9 @@ use crate::solver::around;
 use crate::system::System;
 use crate::vec3::{self, Vec3};
 use crate::wide::eight::all;
-use crate::wide::gather::Matrix;
 use crate::wide::neighbours::Way;
-use crate::wide::solve::{Widened, each_point};
-use crate::wide::work::Iterates;
-use crate::wide::{Dispatch, product, sweep};
+use crate::wide::solve::Widened;
+use crate::wide::{Dispatch, sweep};
 
 #[inline(always)]
 fn down_to<T: Real>(x: T) -> f32 {
@@ -158,11 +156,7 @@ impl<T: Real, F: Force<T>, D: Dispatch> Rows<T> for Widened<'_, '_, T, F, D> {
 impl<T: Real, F: Force<T>, D: Dispatch> Outer<T> for Widened<'_, '_, T, F, D> {
     #[inline(always)]
     fn heaviest(&mut self) -> T {
-        let mut most = all(T::ZERO);
-        for at in self.layout.tiles() {
-            most = sweep::larger_lanes(most, crate::wide::eight::load(self.front.mu, at));
-        }
-        most.0.iter().fold(T::ZERO, |most, x| larger(most, *x))
+        Self::heaviest(self)
     }
     #[inline(always)]
     fn weights(&mut self, down: T, to: &mut [f32]) {
@@ -182,25 +176,7 @@ impl<T: Real, F: Force<T>, D: Dispatch> Outer<T> for Widened<'_, '_, T, F, D> {
     }
     #[inline(always)]
     fn renew(&mut self) {
-        let Self { layout, way, front, work, system, dispatch, .. } = self;
-        dispatch.run(
-            #[inline(always)]
-            || {
-                let Iterates { r, p, y, .. } = &mut *work;
-                let (hessians, inertia) = (&*front.hessians, &*front.inertia);
-                product::over_runs(Matrix { layout, way: *way, hessians, inertia }, y, p);
-                each_point(
-                    system,
-                    way,
-                    #[inline(always)]
-                    |at, h| p.put(at, vec3::add(p.row(at), h.mul(y.row(at)))),
-                );
-                for at in layout.tiles() {
-                    let left = vec3::sub(r.load(at), p.load(at));
-                    r.store(at, left);
-                }
-            },
-        );
+        Self::renew(self);
     }
 }
 

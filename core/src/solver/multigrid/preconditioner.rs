@@ -4,7 +4,7 @@
 use super::LevelPart;
 use super::cycle::Hierarchy;
 use super::dense::Dense;
-use super::inner::{self, Inner, Outer, Rows};
+use super::inner::{Inner, Outer, Refined, Rows};
 use super::level::Level;
 use super::outer::{InLists, InVectors};
 use super::record::{Shape, skip_record};
@@ -15,6 +15,7 @@ use crate::lanes::Lanes;
 use crate::parts::Vectors;
 use crate::real::Real;
 use crate::solver::pcg::Iteration;
+use crate::solver::refinement::{Refinement, refine};
 use crate::sym3::Sym3;
 use crate::system::System;
 use crate::vec3::{self, Vec3};
@@ -111,9 +112,16 @@ impl<'a, T: Real, D: Dispatch> Preconditioner<'a, T, D> {
     }
 
     #[inline(always)]
-    fn iterate(&mut self, outer: &mut impl Outer<T>, until: (T, u32), iterations: &mut u32) -> bool {
+    fn iterate(
+        &mut self,
+        outer: &mut impl Outer<T>,
+        (target, max_iterations): (T, u32),
+        iterations: &mut u32,
+    ) -> bool {
         let Self { scale, hierarchy, inner, dispatch } = self;
-        inner::iterate((hierarchy, inner), outer, *scale, until, iterations, *dispatch)
+        let (scale, dispatch) = (*scale, *dispatch);
+        let mut refined = Refined { hierarchy, inner, outer, scale, dispatch };
+        refine(&mut refined, target, max_iterations, iterations) == Refinement::Broken
     }
 }
 

@@ -16,8 +16,8 @@ use crate::wide::Dispatch;
 pub(super) enum Stage {
     /// x = d = c D⁻¹r
     Start(f32),
-    /// d = ω P x of the next level, x += d
-    Prolong(f32),
+    /// d = P x of the next level, x += d
+    Prolong,
     /// r −= A d; d = a d + c D⁻¹r, x += d
     Smooth(f32, f32),
     /// r −= A d; r of the next level += Pᵀr
@@ -103,8 +103,8 @@ impl Level<'_> {
                     }
                 } else if let Stage::Start(c) = *stage {
                     start(c, inverse, r, x, next, [i, n]);
-                } else if let Stage::Prolong(over) = *stage {
-                    prolong(over, pattern.aggregate, coarse_x, x, next, [i, n]);
+                } else if matches!(stage, Stage::Prolong) {
+                    prolong(pattern.aggregate, coarse_x, x, next, [i, n]);
                 }
             }
             end += BLOCK;
@@ -142,10 +142,9 @@ fn start(
     }
 }
 
-/// d = ω P x_c, x += d
+/// d = P x_c, x += d
 #[inline(always)]
 fn prolong(
-    over: f32,
     aggregate: &[u32],
     coarse: &Planes<'_>,
     x: &mut Planes<'_>,
@@ -154,11 +153,9 @@ fn prolong(
 ) {
     gather(aggregate, coarse, d, [i, n]);
     let at = i + WIDTH;
-    for (x, d) in x.tiles_mut(at, n).zip(d.tiles_mut(at, n)) {
-        let change = scale([over; WIDTH], read(&d));
-        let moved = add3(read(&x), change);
+    for (x, d) in x.tiles_mut(at, n).zip(d.tiles(at, n)) {
+        let moved = add3(read(&x), d);
         write(x, moved);
-        write(d, change);
     }
 }
 

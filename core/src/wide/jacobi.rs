@@ -1,0 +1,140 @@
+//! Block Jacobi in lanes: D⁻¹, and the iterations of [`crate::solver::pcg`] with it. The matrix and the vectors may be in another
+//! precision than the scene, whose point springs are brought down to it.
+
+use crate::force::Force;
+use crate::hessian::Hessian;
+use crate::real::Real;
+use crate::sym3::Sym3;
+use crate::system::System;
+use crate::vec3;
+use crate::wide::dispatch::Dispatch;
+use crate::wide::eight::all;
+use crate::wide::gather::Matrix;
+use crate::wide::neighbours::either;
+use crate::wide::solve::{Preconditioner, Widened, each_point};
+use crate::wide::work::Iterates;
+use crate::wide::{diagonal, product, sweep};
+
+/// D⁻¹ of a matrix; `down` makes a point spring's H one of its numbers.
+pub(crate) fn invert<T: Real, U: Real, F: Force<T>>(
+    matrix: Matrix<'_, U>,
+    inverse: &mut [&mut [U]; 6],
+    system: &System<'_, T, F>,
+    down: &impl Fn(Hessian<T>) -> Hessian<U>,
+    dispatch: impl Dispatch,
+) {
+    let Matrix { layout, way, hessians, inertia } = matrix;
+    dispatch.run(
+        #[inline(always)]
+        || either!(way, neighbours => diagonal::blocks(neighbours, layout, hessians, inertia, inverse)),
+    );
+    each_point(system, &way, |at, h| {
+        let h = down(h);
+        let added = Sym3::scalar(h.alpha).plus_outer(h.w).0;
+        for (plane, added) in inverse.iter_mut().zip(added) {
+            if let Some(entry) = plane.get_mut(at) {
+                *entry += added;
+            }
+        }
+    });
+    dispatch.run(
+        #[inline(always)]
+        || diagonal::invert(layout, inertia, inverse),
+    );
+}
+
+/// Where iterations are: Σ|rᵢ|²/μᵢ, rᵀz, and rᵀz of the iteration before, if p goes on from it.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Progress<U> {
+    pub(crate) beta: U,
+    pub(crate) next: U,
+    pub(crate) rz: U,
+}
+
+/// Iterates from x, r, p and y = z until ½ Σ|rᵢ|²/μᵢ ≤ `target` or the iterations are used up; answers whether it broke down
+/// (rᵀz or pᵀAp ≤ 0 or NaN).
+#[inline(always)]
+pub(crate) fn iterate<T: Real, U: Real, F: Force<T>>(
+    matrix: Matrix<'_, U>,
+    (work, weight): (&mut Iterates<'_, U>, &[U]),
+    (system, down): (&System<'_, T, F>, &impl Fn(Hessian<T>) -> Hessian<U>),
+    progress: &mut Progress<U>,
+    (target, max_iterations): (U, u32),
+    iterations: &mut u32,
+) -> bool {
+    let Progress { beta, next, rz } = progress;
+    while U::HALF * *beta > target && *iterations < max_iterations {
+        if !(*next > U::ZERO) {
+            return true;
+        }
+        sweep::direction(matrix.layout, work, if *rz > U::ZERO { *next / *rz } else { U::ZERO });
+        let Iterates { p, y, .. } = &mut *work;
+        let mut form = product::over_runs(matrix, p, y);
+        each_point(
+            system,
+            &matrix.way,
+            #[inline(always)]
+            |at, h| {
+                let (product, energy) = down(h).mul_and_form(p.row(at));
+                y.put(at, vec3::add(y.row(at), product));
+                form.add(at, energy);
+            },
+        );
+        let curvature = form.sum();
+        if !(curvature > U::ZERO) {
+            return true;
+        }
+        *rz = *next;
+        *iterations += 1;
+        (*beta, *next) = sweep::sweep(matrix.layout, work, weight, *next / curvature);
+    }
+    false
+}
+
+/// A point spring's H as it is.
+#[inline(always)]
+pub(crate) fn same<T: Real>(h: Hessian<T>) -> Hessian<T> {
+    h
+}
+
+/// D⁻¹, which lies in the work.
+pub(crate) struct Diagonal;
+
+impl<T: Real> Preconditioner<T> for Diagonal {
+    #[inline(always)]
+    fn iterate<F: Force<T>, D: Dispatch>(
+        &mut self,
+        of: &mut Widened<'_, '_, T, F, D>,
+        target: T,
+        max_iterations: u32,
+        iterations: &mut u32,
+    ) -> bool {
+        let Widened { layout, way, front, work, system, dispatch, .. } = of;
+        dispatch.run(
+            #[inline(always)]
+            || {
+                for at in layout.tiles() {
+                    for planes in [&mut work.p, &mut work.y] {
+                        planes.store(at, [all(T::ZERO); 3]);
+                    }
+                }
+                let (hessians, inertia, weight) = (&*front.hessians, &*front.inertia, &*front.mu);
+                let matrix = Matrix { layout, way: *way, hessians, inertia };
+                // No step to make yet: this finds z.
+                let (beta, next) = sweep::sweep(layout, work, weight, T::ZERO);
+                let mut progress = Progress { beta, next, rz: T::ZERO };
+                let until = (target, max_iterations);
+                iterate(matrix, (work, weight), (system, &same), &mut progress, until, iterations)
+            },
+        )
+    }
+
+    #[inline(always)]
+    fn apply<F: Force<T>, D: Dispatch>(&mut self, of: &mut Widened<'_, '_, T, F, D>) {
+        let Widened { layout, work, dispatch, .. } = of;
+        dispatch.run(
+            #[inline(always)]
+            || sweep::precondition(layout, work),
+        );
+    }
+}
