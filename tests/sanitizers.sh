@@ -49,7 +49,7 @@ memcheck() {
     cargo build --quiet --release -p hooke-harness
     local see=(valgrind --quiet --error-exitcode=9 --leak-check=full --errors-for-leak-kinds=definite,possible)
     local run=("${see[@]}" "$target/release/hooke" run --quiet --steps 5 --final "$work/end.csv")
-    for solver in jacobi wide multigrid ssor ilu banded ldl ldl32 auto; do
+    for solver in jacobi wide wide32 multigrid ssor ilu banded ldl ldl32 auto; do
         check "valgrind: cloth:16 by $solver" "${run[@]}" --solver "$solver" cloth:16
     done
     for method in midpoint ros3 newton energy-momentum symplectic-euler; do

@@ -14,6 +14,7 @@ pub(crate) fn name(method: Method) -> &'static str {
     match method {
         Method::Jacobi => "hooke block-Jacobi PCG",
         Method::Wide => "hooke wide PCG",
+        Method::Wide32 => "hooke wide PCG f32",
         Method::Multigrid => "hooke multigrid PCG",
         Method::Ssor => "hooke SSOR PCG",
         Method::Ilu => "hooke D-ILU PCG",
@@ -60,7 +61,7 @@ pub(crate) fn solver<F: Force<f64> + Clone>(
         affordable(std::iter::repeat_n(3 * width, 3 * rows))?;
     }
     let solver = AnySolver::new(method, &mut scenario.scene, &scenario.model);
-    if method == Method::Wide && solver.bytes() == 0 {
+    if matches!(method, Method::Wide | Method::Wide32) && solver.bytes() == 0 {
         return Err("no island has a layout in lanes, so it is block-Jacobi PCG".into());
     }
     Ok(solver)
@@ -95,7 +96,7 @@ mod tests {
         // A row is tied to the one below and its neighbour: 9 numbers for each of 9 rows of bandwidth.
         let rows = 8 * 8 - 2;
         assert_eq!(bytes(Method::Banded) - plain, 8 * 9 * 9 * rows);
-        for method in [Method::Wide, Method::Multigrid, Method::Ldl] {
+        for method in [Method::Wide, Method::Wide32, Method::Multigrid, Method::Ldl] {
             assert!(bytes(method) > plain, "{method}");
         }
     }
@@ -116,7 +117,9 @@ mod tests {
         model.springs = (1..40).map(spring).collect();
         let euler = hooke::LinearlyImplicitEuler::<f64>::new(0.01).gravity([0.0; 3]);
         let mut scenario = Scenario::new(&model, euler).unwrap();
-        assert!(solver(Method::Wide, &mut scenario).err().unwrap().contains("lanes"));
+        for method in [Method::Wide, Method::Wide32] {
+            assert!(solver(method, &mut scenario).err().unwrap().contains("lanes"));
+        }
         assert!(solver(Method::Jacobi, &mut scenario).is_ok());
     }
 

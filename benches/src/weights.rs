@@ -96,10 +96,12 @@ pub(crate) fn text(samples: &[Sample]) -> String {
     let list = |values: &[f64]| values.iter().map(|x| format!("{x:.2}")).collect::<Vec<_>>().join(", ");
     let mut text = String::from("\npub const WEIGHTS: Weights = Weights {\n");
     type Line = (&'static str, Method, fn(f64) -> f64, fn(&Sample) -> bool);
-    let solvers: [Line; 6] = [
+    let solvers: [Line; 8] = [
         ("jacobi", Method::Jacobi, |d| d, |_| true),
         ("wide", Method::Wide, |d| d, |s| s.case.lanes),
         ("slots", Method::Wide, |d| d, |s| !s.case.lanes),
+        ("wide32", Method::Wide32, |d| d, |s| s.case.lanes),
+        ("slots32", Method::Wide32, |d| d, |s| !s.case.lanes),
         ("multigrid", Method::Multigrid, f64::sqrt, |s| s.case.lanes),
         ("loose", Method::Multigrid, f64::sqrt, |s| !s.case.lanes && !s.case.solid()),
         ("solid", Method::Multigrid, f64::sqrt, |s| !s.case.lanes && s.case.solid()),

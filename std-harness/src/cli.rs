@@ -78,7 +78,7 @@ pub struct RunArgs {
     /// the end: any step), energy-momentum (keeps both), verlet or symplectic-euler (explicit, refused beyond their limit), auto (the one of least work; with --accuracy they compete while it runs)
     #[arg(long, value_name = "NAME", default_value = "euler", help_heading = "Method")]
     pub integrator: String,
-    /// Linear solver: jacobi (block-Jacobi PCG), ssor or ilu (fewer iterations, one row after another: meshes), wide (the same in vector registers: cloths, nets, lattices, meshes), multigrid (PCG whose iterations hardly grow with the net), banded (LDLᵀ in the order of the particles: chains, ropes, thin nets), ldl
+    /// Linear solver: jacobi (block-Jacobi PCG), ssor or ilu (fewer iterations, one row after another: meshes), wide (the same in vector registers: cloths, nets, lattices, meshes), wide32 (that with its iterations in f32, checked in f64: faster where multigrid is not needed), multigrid (PCG whose iterations hardly grow with the net), banded (LDLᵀ in the order of the particles: chains, ropes, thin nets), ldl
     /// (sparse LDLᵀ), ldl32 (the same with its factor in f32, half the memory, and PCG around it) or auto (the one of least work for this scene, step and tolerance; says which and why)
     #[arg(long, value_name = "NAME", default_value = "jacobi", help_heading = "Method")]
     pub solver: String,

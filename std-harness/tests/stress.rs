@@ -247,7 +247,7 @@ fn a_sparse_factor_serves_methods_of_several_solves_on_many_islands() {
     let case = cases::all().into_iter().find(|case| case.name == "two-bodies").unwrap();
     let prepared = Prepared::new(case, Size::Full);
     for method in ["midpoint", "ros2", "ros3", "newton", "energy-momentum", "ros2-accuracy"] {
-        for solver in ["ldl", "ldl32", "banded", "multigrid", "wide"] {
+        for solver in ["ldl", "ldl32", "banded", "multigrid", "wide", "wide32"] {
             let trial = prepared.tried(named(method), hooke_harness::cli::Precision::F64, solver);
             assert_eq!(trial.ended, Ended::Finished, "{method}, {solver}: {:?}", trial.broken);
         }

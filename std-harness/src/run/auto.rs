@@ -45,6 +45,10 @@ pub struct Weights {
     pub wide: Iterative,
     /// Lanes over slots, where the springs lie in no runs.
     pub slots: Iterative,
+    /// The two with their iterations in f32: over runs, ...
+    pub wide32: Iterative,
+    /// ... and over slots.
+    pub slots32: Iterative,
     /// Multigrid on a scene with lanes, whose levels are read in order.
     pub multigrid: Iterative,
     /// Multigrid on any other that is flat, ...
@@ -68,6 +72,8 @@ pub const WEIGHTS: Weights = Weights {
     jacobi: Iterative { iterations: 0.313, setup: 31.69, iteration: 3.56 },
     wide: Iterative { iterations: 0.318, setup: 21.17, iteration: 1.68 },
     slots: Iterative { iterations: 0.300, setup: 21.39, iteration: 1.76 },
+    wide32: Iterative { iterations: 0.318, setup: 22.20, iteration: 0.92 },
+    slots32: Iterative { iterations: 0.300, setup: 22.40, iteration: 1.20 },
     multigrid: Iterative { iterations: 0.145, setup: 31.07, iteration: 4.56 },
     loose: Iterative { iterations: 0.171, setup: 32.00, iteration: 6.25 },
     solid: Iterative { iterations: 0.179, setup: 63.22, iteration: 20.65 },
@@ -91,6 +97,8 @@ pub struct Case {
     pub halvings: f64,
     /// Do its springs lie in offset runs?
     pub lanes: bool,
+    /// Is it in f32 itself, so that nothing is gained by iterations in f32?
+    pub single: bool,
     /// The sparse factor, if an order was looked for.
     pub fill: Option<Fill>,
 }
@@ -108,6 +116,7 @@ impl Case {
             islands: islands(model, dt),
             halvings: halvings(tolerance.unwrap_or(usual), most),
             lanes: in_runs(model),
+            single: precision == Precision::F32,
             fill: small.then(|| minimum_degree(&model.pinned, springs).1),
         }
     }
@@ -152,6 +161,8 @@ impl Case {
         match method {
             Method::Jacobi => Ok(iterate(&w.jacobi, Self::difficulty)),
             Method::Wide => Ok(iterate(if self.lanes { &w.wide } else { &w.slots }, Self::difficulty)),
+            Method::Wide32 if self.single => Err("the scene is in f32 itself"),
+            Method::Wide32 => Ok(iterate(if self.lanes { &w.wide32 } else { &w.slots32 }, Self::difficulty)),
             Method::Multigrid => Ok(iterate(self.multigrid(w), |island| Self::difficulty(island).sqrt())),
             Method::Ssor | Method::Ilu => Err("it has no weights"),
             Method::Banded => {

@@ -100,7 +100,7 @@ impl Prices {
                 self.size * (stages * w.setup + w.iteration * iterations)
             }
             // Later stages do not run in lanes.
-            Method::Jacobi | Method::Wide | Method::Ssor | Method::Ilu => {
+            Method::Jacobi | Method::Wide | Method::Wide32 | Method::Ssor | Method::Ilu => {
                 self.size * (w.jacobi.setup + w.jacobi.iteration * iterations)
             }
         };

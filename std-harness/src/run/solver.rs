@@ -5,7 +5,7 @@ use std::fmt;
 use hooke::solver::{Answer, Island};
 use hooke::{
     BandedLdl, BlockIlu, BlockJacobi, Force, Law, MassSpring, Memory, Multigrid, Numbers, Real, Single,
-    Solve, Solver, SparseLdl, Ssor, StepError, Stop, Wide, WideJacobi,
+    SingleJacobi, Solve, Solver, SparseLdl, Ssor, StepError, Stop, Wide, WideJacobi,
 };
 
 use crate::host::Host;
@@ -23,6 +23,8 @@ pub enum Method {
     Ilu,
     /// Block-Jacobi PCG in lanes.
     Wide,
+    /// The same with its iterations in f32.
+    Wide32,
     /// PCG around one aggregation-multigrid cycle in f32.
     Multigrid,
     /// Block-banded LDLᵀ in the order of the particles.
@@ -34,11 +36,12 @@ pub enum Method {
 }
 
 /// What `--solver` calls them.
-pub const METHODS: [(&str, Method); 8] = [
+pub const METHODS: [(&str, Method); 9] = [
     ("jacobi", Method::Jacobi),
     ("ssor", Method::Ssor),
     ("ilu", Method::Ilu),
     ("wide", Method::Wide),
+    ("wide32", Method::Wide32),
     ("multigrid", Method::Multigrid),
     ("banded", Method::Banded),
     ("ldl", Method::Ldl),
@@ -59,6 +62,7 @@ impl fmt::Display for Method {
             Self::Ssor => "block-SSOR PCG",
             Self::Ilu => "block-D-ILU PCG",
             Self::Wide => "block-Jacobi PCG in lanes",
+            Self::Wide32 => "block-Jacobi PCG in lanes, iterations in f32",
             Self::Multigrid => "multigrid PCG",
             Self::Banded => "banded LDLᵀ",
             Self::Ldl => "sparse LDLᵀ",
@@ -66,6 +70,9 @@ impl fmt::Display for Method {
         })
     }
 }
+
+/// Block Jacobi in lanes and in f32.
+type Wide32<T> = Wide<Vec<T>, Vec<u32>, Host, SingleJacobi<Vec<f32>>>;
 
 /// Multigrid in lanes.
 type Lanes<T> = Wide<Vec<T>, Vec<u32>, Host, Multigrid<Vec<f32>, Vec<u32>, Host>>;
@@ -87,6 +94,8 @@ pub enum AnySolver<T> {
     Ilu(BlockIlu<Vec<T>>, usize),
     /// [`Method::Wide`], and how many bytes it has
     Wide(Box<WideJacobi<Vec<T>, Vec<u32>, Host>>, usize),
+    /// [`Method::Wide32`], and how many bytes it has
+    Wide32(Box<Wide32<T>>, usize),
     /// [`Method::Multigrid`], in lanes where a scene has any, and how many bytes it has
     Multigrid(Box<Lanes<T>>, usize),
     /// [`Method::Banded`], chains in lanes, and how many bytes it has
@@ -115,6 +124,13 @@ impl<T: Real> AnySolver<T> {
                 let bytes = numbers * size_of::<T>() + words * size_of::<u32>();
                 let solver = WideJacobi::new(vec![T::ZERO; numbers], vec![0; words], Host::new());
                 Self::Wide(Box::new(solver), bytes)
+            }
+            Method::Wide32 => {
+                let (numbers, words) = WideJacobi::needs_of(scene, true);
+                let singles = SingleJacobi::needs_of(scene);
+                let bytes = numbers * size_of::<T>() + singles * size_of::<f32>() + words * size_of::<u32>();
+                let lanes = WideJacobi::new(vec![T::ZERO; numbers], vec![0; words], Host::new());
+                Self::Wide32(Box::new(lanes.around(SingleJacobi::new(vec![0.0; singles]))), bytes)
             }
             Method::Multigrid => {
                 let (numbers, words) = Multigrid::needs(model.pinned.len(), model.springs.len());
@@ -149,6 +165,7 @@ impl<T: Real> AnySolver<T> {
             Self::Ssor(_, bytes)
             | Self::Ilu(_, bytes)
             | Self::Wide(_, bytes)
+            | Self::Wide32(_, bytes)
             | Self::Multigrid(_, bytes)
             | Self::Banded(_, bytes)
             | Self::Ldl(_, bytes)
@@ -166,6 +183,7 @@ impl<T: Real> Solver<T> for AnySolver<T> {
         match self {
             Self::Jacobi(solver) => solver.answer::<F, L>(to, stop),
             Self::Wide(solver, _) => solver.as_mut().answer::<F, L>(to, stop),
+            Self::Wide32(solver, _) => solver.as_mut().answer::<F, L>(to, stop),
             Self::Multigrid(solver, _) => solver.as_mut().answer::<F, L>(to, stop),
             Self::Ssor(solver, _) => solver.answer::<F, L>(to, stop),
             Self::Ilu(solver, _) => solver.answer::<F, L>(to, stop),
@@ -179,6 +197,7 @@ impl<T: Real> Solver<T> for AnySolver<T> {
         match self {
             Self::Jacobi(solver) => Solver::<T>::begin(solver),
             Self::Wide(solver, _) => Solver::<T>::begin(solver.as_mut()),
+            Self::Wide32(solver, _) => Solver::<T>::begin(solver.as_mut()),
             Self::Multigrid(solver, _) => Solver::<T>::begin(solver.as_mut()),
             Self::Banded(solver, _) => Solver::<T>::begin(solver.as_mut()),
             Self::Ssor(solver, _) => Solver::<T>::begin(solver),
@@ -192,6 +211,7 @@ impl<T: Real> Solver<T> for AnySolver<T> {
         match self {
             Self::Jacobi(solver) => Solver::<T>::repeat(solver),
             Self::Wide(solver, _) => Solver::<T>::repeat(solver.as_mut()),
+            Self::Wide32(solver, _) => Solver::<T>::repeat(solver.as_mut()),
             Self::Multigrid(solver, _) => Solver::<T>::repeat(solver.as_mut()),
             Self::Banded(solver, _) => Solver::<T>::repeat(solver.as_mut()),
             Self::Ssor(solver, _) => Solver::<T>::repeat(solver),
@@ -211,6 +231,7 @@ impl<T: Real> Solver<T> for AnySolver<T> {
             Self::Ssor(solver, _) => solver.again(problem, stop),
             Self::Ilu(solver, _) => solver.again(problem, stop),
             Self::Wide(solver, _) => solver.as_mut().again(problem, stop),
+            Self::Wide32(solver, _) => solver.as_mut().again(problem, stop),
             Self::Multigrid(solver, _) => solver.as_mut().again(problem, stop),
             Self::Banded(solver, _) => solver.as_mut().again(problem, stop),
             Self::Ldl(solver, _) => solver.as_mut().again(problem, stop),
@@ -228,6 +249,7 @@ impl<T: Real> Solver<T> for AnySolver<T> {
             Self::Ssor(solver, _) => solver.solve(problem, stop),
             Self::Ilu(solver, _) => solver.solve(problem, stop),
             Self::Wide(solver, _) => solver.as_mut().solve(problem, stop),
+            Self::Wide32(solver, _) => solver.as_mut().solve(problem, stop),
             Self::Multigrid(solver, _) => solver.as_mut().solve(problem, stop),
             Self::Banded(solver, _) => solver.as_mut().solve(problem, stop),
             Self::Ldl(solver, _) => solver.as_mut().solve(problem, stop),
