@@ -11,9 +11,9 @@ use crate::wide::bound;
 use crate::wide::dispatch::Dispatch;
 use crate::wide::eight::{all, load};
 use crate::wide::gather::Matrix;
-use crate::wide::neighbours::Runs;
-use crate::wide::pieces::{self, Last, Rows};
 use crate::wide::jacobi::Diagonal;
+use crate::wide::pieces::{self, Last, Rows};
+use crate::wide::runs::Runs;
 use crate::wide::solve::{Lanes, Widened, each_point};
 
 /// Solves a chain; the answer goes to `x`.

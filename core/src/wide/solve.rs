@@ -12,10 +12,10 @@ use crate::vec3::{self, Vec3};
 use crate::wide::dispatch::Dispatch;
 use crate::wide::eight::{Planes, all, load, store, where_positive};
 use crate::wide::gather::Matrix;
+use crate::wide::jacobi::same;
 use crate::wide::layout::Layout;
 use crate::wide::neighbours::Way;
 use crate::wide::work::{Front, Iterates};
-use crate::wide::jacobi::same;
 use crate::wide::{bound, jacobi, product, sweep};
 
 /// One island in lanes, assembled; opaque.
