@@ -71,6 +71,12 @@ pub trait Real:
     fn from_count(n: usize) -> Self;
 }
 
+/// The nearest number of another precision.
+#[inline(always)]
+pub(crate) fn to<T: Real, U: Real>(x: T) -> U {
+    U::from_f64(x.to_f64())
+}
+
 /// The larger of two numbers by one comparison: `b` if `a < b`, else `a`. Unlike `max`, its bits are the same in every
 /// build; a NaN in `a` stays.
 #[inline(always)]

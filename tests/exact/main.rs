@@ -38,6 +38,7 @@ mod rest;
 mod same_bits;
 mod same_steps;
 mod scalings;
+mod single;
 mod sleeping;
 mod snapshots;
 mod ssor;

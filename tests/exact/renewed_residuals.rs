@@ -15,10 +15,7 @@ fn nets() -> Vec<SceneData> {
     let nets =
         [generate::cloth(24), heavy, generate::lattice(5, 6, 7), generate::blob(4, 1), generate::chain(70)];
     let moved = |mut data: SceneData| {
-        let (mut scene, mut forces) = (build::scene::<f64>(&data), Forces::<f64>::new(&data));
-        let mut euler = forces.euler(H);
-        (0..8).for_each(|_| assert!(scene.step(&mut euler).is_ok()));
-        build::read_back(&scene, &mut data);
+        build::walk_on(&mut data, H, 8);
         data
     };
     nets.into_iter().map(moved).collect()

@@ -1,9 +1,10 @@
 //! No force, v = 0, l = l₀: nothing moves.
 
 use hooke::{Drag, LinearlyImplicitEuler, Real, SpringDamping};
+use hooke_tests::data::SceneData;
 use hooke_tests::random::Random;
 use hooke_tests::vec_memory::VecScene;
-use hooke_tests::{build, generate};
+use hooke_tests::{build, generate, lanes};
 
 fn rests<T: Real>() {
     let mut random = Random::new(1);
@@ -37,6 +38,21 @@ fn rests<T: Real>() {
 fn without_force_at_rest_and_at_rest_length_nothing_moves_bit_for_bit() {
     rests::<f64>();
     rests::<f32>();
+}
+
+#[test]
+fn where_nothing_acts_lanes_iterate_nothing_in_either_precision() {
+    let data = SceneData { gravity: [0.0; 3], ..generate::cloth(9) };
+    let rest = |solver: &mut dyn FnMut(&mut VecScene<f64>) -> hooke::Report<f64>| {
+        let mut scene = build::scene::<f64>(&data);
+        let (before, report) = (build::bits(&scene), solver(&mut scene));
+        assert_eq!((report.iterations, report.untouched, report.upper, report.lower), (0, 1, 0.0, 0.0));
+        assert_eq!(build::bits(&scene), before);
+    };
+    let (mut wide, mut single) = (lanes::wide::<f64>(&data), lanes::single::<f64>(&data));
+    rest(&mut |scene| scene.step(&mut LinearlyImplicitEuler::new(0.01).solver(&mut wide)).unwrap());
+    rest(&mut |scene| scene.step(&mut LinearlyImplicitEuler::new(0.01).solver(&mut single)).unwrap());
+    assert!(wide.in_lanes() && single.in_lanes());
 }
 
 #[test]

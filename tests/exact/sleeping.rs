@@ -10,7 +10,7 @@ use hooke::{
 use hooke_tests::build::{self, Forces};
 use hooke_tests::data::SceneData;
 use hooke_tests::vec_memory::VecScene;
-use hooke_tests::{direct, generate, multigrid};
+use hooke_tests::{direct, generate, lanes, multigrid};
 
 pub(crate) type Memory<T> = Sleeping<T, Vec<T>, Vec<u32>>;
 
@@ -308,11 +308,8 @@ fn every_solver_goes_on_where_some_islands_need_it_not() {
     solves_on(direct::banded);
     solves_on(direct::sparse);
     solves_on(multigrid::multigrid);
-    solves_on(|data| {
-        let mut scene = build::scene::<f64>(data);
-        let (numbers, words) = hooke::WideJacobi::needs_of(&mut scene, true);
-        hooke::WideJacobi::new(vec![0.0; numbers], vec![0; words], hooke::Portable)
-    });
+    solves_on(lanes::wide::<f64>);
+    solves_on(lanes::single::<f64>);
 }
 
 #[test]

@@ -95,6 +95,8 @@ fn each(data: &SceneData, mut check: impl FnMut(&str, bool, bool, &dyn Fn(f32) -
     // A net in any order may fill no lanes; then this is block Jacobi once more.
     let name = if wide.in_lanes() { "lanes" } else { "no lanes" };
     check(name, true, false, &|r| solve(data, r, lanes::wide::<f32>(data)));
+    let name = if wide.in_lanes() { "lanes in f32" } else { "no lanes, in f32" };
+    check(name, true, false, &|r| solve(data, r, lanes::single::<f32>(data)));
     check("SSOR", false, false, &|r| solve(data, r, Ssor::new(vec![1.0f32; Ssor::needs(data.len())])));
     check("D-ILU", false, false, &|r| {
         solve(data, r, BlockIlu::new(vec![1.0f32; BlockIlu::needs(data.len())]))

@@ -8,7 +8,7 @@ use hooke_harness::host::Host;
 use hooke_tests::build::{self, Forces};
 use hooke_tests::data::{SceneData, distance};
 use hooke_tests::vec_memory::VecScene;
-use hooke_tests::{allowed, generate};
+use hooke_tests::{allowed, generate, lanes};
 
 type Wide<T, D = Portable> = WideJacobi<Vec<T>, Vec<u32>, D>;
 
@@ -26,7 +26,7 @@ fn wide<T: Real, D: Dispatch>(scene: &mut VecScene<T>, dispatch: D) -> Wide<T, D
 }
 
 /// Bits of the scene and the report after some steps.
-fn run<T: Real, L: Law, S: Solver<T>>(
+pub(crate) fn run<T: Real, L: Law, S: Solver<T>>(
     data: &SceneData,
     scene: &mut VecScene<T, L>,
     solver: &mut S,
@@ -43,7 +43,7 @@ fn run<T: Real, L: Law, S: Solver<T>>(
 }
 
 /// A cloth with pins in its midst, a point spring, drag and damping.
-fn cloth(n: usize) -> SceneData {
+pub(crate) fn cloth(n: usize) -> SceneData {
     let mut data = generate::cloth(n);
     for i in [n / 2, data_pin(n), data_pin(n) + 1] {
         data.pinned[i] = true;
@@ -63,7 +63,7 @@ fn cloth(n: usize) -> SceneData {
 }
 
 /// A mesh whose springs join particles at many distances, kicked, with the same in it as [`cloth`].
-fn mesh(cells: usize) -> SceneData {
+pub(crate) fn mesh(cells: usize) -> SceneData {
     let mut data = generate::blob(cells, 1);
     let middle = data.len() / 2;
     data.pinned[middle] = true;
@@ -282,7 +282,7 @@ fn where_rows_come_in_the_order_of_the_slots_these_give_the_plain_solvers_bits()
 }
 
 /// One particle that holds all others: slots for it would be mostly zeros.
-fn star(n: usize) -> SceneData {
+pub(crate) fn star(n: usize) -> SceneData {
     let mut data = SceneData { gravity: [0.0, -9.8, 0.0], ..SceneData::default() };
     for i in 0..n {
         data.particle([i as f64 * 0.1, 0.0, (i * i) as f64 * 0.01], 0.1);
@@ -299,7 +299,9 @@ fn springs_that_fill_neither_runs_nor_slots_are_left_to_the_plain_solver() {
     let mut solver = wide(&mut lanes, Portable);
     let expected = run(&data, &mut plain, &mut BlockJacobi, 1e-8, 5);
     assert_eq!(run(&data, &mut lanes, &mut solver, 1e-8, 5), expected);
-    assert!(!solver.in_lanes());
+    let mut single = lanes::single::<f64>(&data);
+    assert_eq!(run(&data, &mut scene(&data), &mut single, 1e-8, 5), expected);
+    assert!(!solver.in_lanes() && !single.in_lanes());
 }
 
 #[test]

@@ -38,8 +38,8 @@ without_features() {
 # in `prepare` and `project`, which name no solver).
 without_lanes() {
     local source=$1/core/src
-    rm -r "$source"/{wide,solver/multigrid,solver/around.rs}
-    sed -i -E '/^(pub )?(mod|use) (wide|multigrid|around)\b/d' "$source/lib.rs" "$source/solver/mod.rs"
+    rm -r "$source"/{wide,solver/multigrid,solver/around.rs,solver/refinement.rs}
+    sed -i -E '/^(pub(\(crate\))? )?(mod|use) (wide|multigrid|around|refinement)\b/d' "$source/lib.rs" "$source/solver/mod.rs"
     sed -i -E 's/^(pub use solver::).*$/\1{BlockJacobi, Jacobi, Preconditioner, Solver, Stop};/' "$source/lib.rs"
 }
 

@@ -75,6 +75,7 @@ fn many_solves_of_every_island_need_no_more_than_multigrid_says_and_end_where_bl
 #[test]
 fn many_solves_of_every_island_end_where_block_jacobi_ends_in_lanes() {
     keeps_each_islands_own("lanes", lanes::wide::<f64>);
+    keeps_each_islands_own("lanes in f32", lanes::single::<f64>);
     keeps_each_islands_own("lanes around multigrid", |data| {
         let (numbers, words) = WideJacobi::needs_of(&mut build::scene::<f64>(data), true);
         WideJacobi::new(vec![1.0; numbers], vec![7; words], Portable).around(multigrid(data))

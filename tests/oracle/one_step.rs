@@ -11,7 +11,7 @@ use hooke_tests::data::{MotionData, SceneData, distance};
 use hooke_tests::dense::Dense;
 use hooke_tests::direct;
 use hooke_tests::generate::{self, Ingredients};
-use hooke_tests::lanes::wide;
+use hooke_tests::lanes::{single, wide};
 use hooke_tests::multigrid::multigrid;
 use hooke_tests::random::Random;
 use hooke_tests::triangular::{ilu, ssor};
@@ -188,6 +188,12 @@ fn a_step_in_lanes_is_the_dense_solve_within_the_bound_on_nets_of_any_shape() {
     against_dense::<f64, _>(&[1e-1, 1e-3, 1e-6, 1e-8], allowed::U64, 23, counted);
     assert!(laid_out.get() > 60, "{} solves in lanes", laid_out.get());
     against_dense::<f32, _>(&[1e-1, 1e-3, 1e-4], allowed::U32, 24, wide);
+}
+
+#[test]
+fn a_step_in_lanes_with_iterations_in_less_precision_is_the_dense_solve_within_the_bound() {
+    against_dense::<f64, _>(&[1e-1, 1e-3, 1e-6, 1e-8], allowed::U64, 25, single);
+    against_dense::<f32, _>(&[1e-1, 1e-3, 1e-4], allowed::U32, 26, single);
 }
 
 #[test]

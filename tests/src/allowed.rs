@@ -125,6 +125,12 @@ pub const ROOTS: f64 = 16.0;
 /// (measured: at most 5.5, of a lower bound below the smallest normal number, else 3.0; twofold). The margins that it is to show are
 /// 38 and more.
 pub const THEOREM: f64 = 11.0;
+/// xᵀAx of a difference of answers, relative: a sum of up to 10⁴ terms loses 10⁴u, each term 16u, and those of pressed springs,
+/// which are taken away, are below a hundred times what is left (derived: below 2e-10 in `f64`).
+pub const FORM: f64 = 1e-9;
+/// A direct solver's lower bound where its sum runs over places in place of rows, units of u: n = springs + points + 3 places + 32,
+/// here at most 79 + 4 + 3·240 + 32, loses 2nu as a margin in either sum and n u by rounding in each (derived: 4n = 3340).
+pub const BOUND_OF_PLACES: f64 = 4096.0;
 /// Relative difference of an error's energy between 208 and 416 bits: the pivots lose κ·n·2⁻²⁰⁸ and the energy, a sum of squares
 /// over pivots, as much again; κ up to 1e30 in what is generated, so below 1e-62·1e30·100 (derived). The bounds themselves are
 /// never nearer to it than 38 u of `f64`, 4e-15.

@@ -1,8 +1,8 @@
 //! From plain data to a scene of the kernel with its forces, and back. Bits for comparing.
 
 use hooke::{
-    Drag, EditError, Gravity, Hookean, LinearlyImplicitEuler, MassSpring, Memory, Motion, PointSpring, Real,
-    Spring, SpringDamping,
+    Drag, EditError, Gravity, Hookean, LinearlyImplicitEuler, MassSpring, Memory, Motion, Operator,
+    PointSpring, Real, Spring, SpringDamping, System,
 };
 
 use crate::data::{MotionData, SceneData};
@@ -108,6 +108,26 @@ pub fn velocities<M: Memory>(scene: &MassSpring<M>) -> Vec<[f64; 3]> {
 pub fn read_back<M: Memory>(scene: &MassSpring<M>, data: &mut SceneData) {
     data.position = positions(scene);
     data.velocity = velocities(scene);
+}
+
+/// So many steps of linearly-implicit Euler in `f64`, after which the data are the scene's state.
+pub fn walk_on(data: &mut SceneData, h: f64, steps: usize) {
+    let (mut scene, mut forces) = (scene::<f64>(data), Forces::<f64>::new(data));
+    let mut euler = forces.euler(h);
+    (0..steps).for_each(|_| assert!(scene.step(&mut euler).is_ok()));
+    read_back(&scene, data);
+}
+
+/// ‖a − b‖_A of two answers to the next step of a scene.
+pub fn apart(data: &SceneData, h: f64, a: &[[f64; 3]], b: &[[f64; 3]]) -> f64 {
+    let (mut scene, mut forces, mut form) = (scene::<f64>(data), Forces::<f64>::new(data), 0.0);
+    let see = |system: &System<'_, f64, Everything<'_, f64>>, _: &[[f64; 3]], _: &[f64]| {
+        let particles = (0..system.particles()).filter_map(|row| system.particle(row));
+        let e: Vec<_> = particles.map(|i| [0, 1, 2].map(|k| a[i][k] - b[i][k])).collect();
+        form += system.apply(&e, &mut vec![[0.0; 3]; e.len()]);
+    };
+    assert!(forces.euler(h).inspect(scene.parts(), &[], see).is_ok());
+    form.sqrt()
 }
 
 /// The largest |a − b| of corresponding vectors.

@@ -13,7 +13,7 @@ mod multigrid;
 mod panel;
 pub(crate) mod pcg;
 pub(crate) mod pivot;
-pub(crate) mod precision;
+mod precision;
 pub(crate) mod refinement;
 mod sparse_ldl;
 mod ssor;

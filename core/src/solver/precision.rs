@@ -44,9 +44,3 @@ impl<T: Real, N: AsMut<[f32]>> Numbers<T> for Single<N> {
         self.0.as_mut()
     }
 }
-
-/// The nearest number of another precision.
-#[inline(always)]
-pub(crate) fn to<T: Real, U: Real>(x: T) -> U {
-    U::from_f64(x.to_f64())
-}

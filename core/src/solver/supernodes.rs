@@ -8,11 +8,10 @@
 //! Source: Ng & Peyton 1993 (left-looking block Cholesky).
 
 use crate::force::Force;
-use crate::real::Real;
+use crate::real::{Real, to};
 use crate::solver::elimination::{Lists, NONE, Sizes, get, set};
 use crate::solver::panel::{Block, below, below_mut, divided, first, subtract, three, three_mut};
 use crate::solver::pivot::inverse;
-use crate::solver::precision::to;
 use crate::solver::update::{self, Panel};
 use crate::sym3::Sym3;
 use crate::system::System;

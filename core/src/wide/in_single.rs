@@ -2,8 +2,7 @@
 
 use crate::force::Force;
 use crate::hessian::Hessian;
-use crate::real::{Real, larger};
-use crate::solver::precision::to;
+use crate::real::{Real, larger, to};
 use crate::solver::refinement::{Group, Refinement, Refines, refine};
 use crate::sym3::Sym3;
 use crate::vec3;
@@ -94,11 +93,20 @@ fn lower<T: Real>(
     hessians: &mut [f32],
 ) {
     scaled(front.inertia, scale, inertia);
-    // A block's four numbers lie a plane apart in runs, eight in slots.
-    let apart = if layout.slots.is_some() { WIDTH } else { layout.plane() };
-    let parts = front.hessians.chunks(apart).zip(hessians.chunks_mut(apart));
-    for (k, (from, to)) in parts.enumerate() {
-        scaled(from, if k % NUMBERS_OF_ONE == 0 { scale } else { root }, to);
+    // α and the components of w lie a plane apart in runs, eight numbers in slots.
+    let by = |k: usize| if k.is_multiple_of(NUMBERS_OF_ONE) { scale } else { root };
+    if layout.slots.is_some() {
+        let parts = front.hessians.as_chunks::<WIDTH>().0.iter().zip(hessians.as_chunks_mut::<WIDTH>().0);
+        for (k, (from, into)) in parts.enumerate() {
+            scaled(from, by(k), into);
+        }
+        return;
+    }
+    let plane = layout.plane();
+    for k in 0..NUMBERS_OF_ONE * layout.runs {
+        let from = front.hessians.get(k * plane..).unwrap_or_default();
+        let into = hessians.get_mut(k * plane..).unwrap_or_default();
+        scaled(from.get(..plane).unwrap_or_default(), by(k), into);
     }
 }
 

@@ -1,7 +1,9 @@
 //! Block-Jacobi PCG in lanes.
 
 use hooke::solver::Problem;
-use hooke::{BandedLdl, Dispatch, Multigrid, Portable, Solve, Solver, StepError, Stop, WideJacobi};
+use hooke::{
+    BandedLdl, Dispatch, Multigrid, Portable, SingleJacobi, Solve, Solver, StepError, Stop, WideJacobi,
+};
 
 use crate::shared::*;
 
@@ -11,6 +13,10 @@ type Wide<'a, T> = WideJacobi<&'a mut [T], &'a mut [u32]>;
 type Grid<'a> = Multigrid<&'a mut [f32], &'a mut [u32]>;
 /// The solver around it.
 type Around<'a, T> = hooke::Wide<&'a mut [T], &'a mut [u32], Portable, Grid<'a>>;
+/// Iterations in f32, in borrowed memory.
+type InSingle<'a> = SingleJacobi<&'a mut [f32]>;
+/// The solver with these.
+type AroundSingle<'a, T> = hooke::Wide<&'a mut [T], &'a mut [u32], Portable, InSingle<'a>>;
 /// The banded solver in lanes.
 type Chains<'a, T> = hooke::Wide<&'a mut [T], &'a mut [u32], Portable, BandedLdl<&'a mut [T]>>;
 /// A step by it.
@@ -37,6 +43,18 @@ crate::entry_point::entry_points! {
     }
     Preconditions::solve_in_lanes[banded](
         s: &mut S<T>, euler: &mut Step<'_, T, Chains<'_, T>>,
+    ) -> Stepped<T> {
+        s.step(euler)
+    }
+    SingleJacobi::new<'a>(numbers: &'a mut [f32], _unused: T) -> InSingle<'a> { SingleJacobi::new(numbers) }
+    SingleJacobi::needs_of(s: &mut S<T>) -> usize { SingleJacobi::needs_of(s) }
+    Solver::solve[single_jacobi](
+        single: &mut InSingle<'_>, problem: Problem<'_, '_, T, All<'_, T>>, stop: &Stop<T>,
+    ) -> Result<Solve<T>, StepError> {
+        single.solve(problem, stop)
+    }
+    Preconditions::solve_in_lanes[single](
+        s: &mut S<T>, euler: &mut Step<'_, T, AroundSingle<'_, T>>,
     ) -> Stepped<T> {
         s.step(euler)
     }

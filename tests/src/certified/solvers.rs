@@ -5,7 +5,7 @@ use hooke::{BandedLdl, BlockJacobi, IslandReport, Portable, Real, Solver, StepEr
 use super::case::{Case, Cut};
 use crate::build::{self, Forces};
 use crate::direct;
-use crate::lanes::wide;
+use crate::lanes::{self, wide};
 use crate::multigrid::multigrid;
 use crate::triangular::{ilu, ssor};
 
@@ -16,6 +16,8 @@ pub enum Method {
     Jacobi,
     /// The same in lanes
     Lanes,
+    /// The same with its iterations in `f32`
+    LanesSingle,
     /// PCG with multigrid, in lanes
     LanesMultigrid,
     /// Chains by eight pieces side by side
@@ -35,9 +37,10 @@ pub enum Method {
 }
 
 /// All of them.
-pub const METHODS: [Method; 10] = [
+pub const METHODS: [Method; 11] = [
     Method::Jacobi,
     Method::Lanes,
+    Method::LanesSingle,
     Method::LanesMultigrid,
     Method::LanesBanded,
     Method::Ssor,
@@ -65,6 +68,7 @@ impl Method {
         match self {
             Self::Jacobi => "block Jacobi",
             Self::Lanes => "block Jacobi in lanes",
+            Self::LanesSingle => "single in lanes",
             Self::LanesMultigrid => "multigrid in lanes",
             Self::LanesBanded => "banded LDLᵀ in lanes",
             Self::Ssor => "SSOR",
@@ -88,6 +92,11 @@ impl Method {
             Self::Jacobi => step::<T, _>(case, cut, BlockJacobi),
             Self::Lanes => {
                 let mut lanes = wide::<T>(data);
+                let solved = step::<T, _>(case, cut, &mut lanes)?;
+                Ok(Solved { in_lanes: lanes.in_lanes(), ..solved })
+            }
+            Self::LanesSingle => {
+                let mut lanes = lanes::single::<T>(data);
                 let solved = step::<T, _>(case, cut, &mut lanes)?;
                 Ok(Solved { in_lanes: lanes.in_lanes(), ..solved })
             }

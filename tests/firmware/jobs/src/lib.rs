@@ -88,6 +88,8 @@ pub static ALL: &[Job] = &[
     solvers::ILU_F64,
     solvers::WIDE_F32,
     solvers::WIDE_F64,
+    solvers::WIDE_SINGLE_F32,
+    solvers::WIDE_SINGLE_F64,
     solvers::MULTIGRID_F32,
     solvers::MULTIGRID_F64,
     sleeping::F32,

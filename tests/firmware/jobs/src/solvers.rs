@@ -2,7 +2,7 @@
 
 use hooke::{
     BandedLdl, BlockIlu, Hookean, LinearlyImplicitEuler, MassSpring, Memory, Multigrid, Portable, Real,
-    Scene, Single, Solver, SparseLdl, Ssor, WideJacobi,
+    Scene, Single, SingleJacobi, Solver, SparseLdl, Ssor, WideJacobi,
 };
 use static_cell::ConstStaticCell;
 
@@ -129,6 +129,31 @@ lanes!(
     WideJacobi::new(zeros!(f64, NUMBERS), zeros!(u32, WORDS), Portable)
 );
 
+/// Numbers of [`SingleJacobi`] for the cloth, and those and words of the lanes around it: more than they need.
+const IN_SINGLE: usize = 4096;
+const AROUND_SINGLE: (usize, usize) = (4608, 1024);
+
+lanes!(
+    WIDE_SINGLE_F32,
+    f32,
+    "wide-single",
+    PARTICLES,
+    SPRINGS,
+    hung_cloth,
+    WideJacobi::new(zeros!(f32, AROUND_SINGLE.0), zeros!(u32, AROUND_SINGLE.1), Portable)
+        .around(SingleJacobi::new(zeros!(f32, IN_SINGLE)))
+);
+lanes!(
+    WIDE_SINGLE_F64,
+    f64,
+    "wide-single",
+    PARTICLES,
+    SPRINGS,
+    hung_cloth,
+    WideJacobi::new(zeros!(f64, AROUND_SINGLE.0), zeros!(u32, AROUND_SINGLE.1), Portable)
+        .around(SingleJacobi::new(zeros!(f32, IN_SINGLE)))
+);
+
 fn rope<M: Memory>(scene: &mut MassSpring<M>) -> Outcome {
     scenes::hang(scene, ROPE)
 }
@@ -160,10 +185,15 @@ fn run<M: Memory, S: Solver<M::Real>>(
     solver: S,
     trace: &mut Trace<'_>,
 ) -> Outcome {
+    hung_cloth(scene)?;
+    steps(scene, solver, trace)
+}
+
+fn hung_cloth<M: Memory>(scene: &mut MassSpring<M>) -> Outcome {
     scenes::cloth(scene, SIDE)?;
     scene.pin(0)?;
     scene.pin(SIDE - 1)?;
-    steps(scene, solver, trace)
+    Ok(())
 }
 
 fn steps<M: Memory, S: Solver<M::Real>>(
