@@ -106,6 +106,13 @@ fn masses_and_constants_times_a_power_of_four_however_large_change_no_bit_of_an_
 
 #[test]
 fn where_f32_gets_no_nearer_the_scenes_precision_goes_on_and_the_most_iterations_are_of_both() {
+    for (data, by) in [(cloth(16), 1e12), (mesh(4), 1e8), (mesh(4), 1e12), (mesh(4), 1e30)] {
+        let data = stopped(data, 5, by);
+        let [found, expected] = both(&data, 1e-6);
+        assert_eq!((found.1.fallbacks, found.1.capped, found.1.stalled), (1, 0, 0), "{:?}", found.1);
+        within_the_bounds(&data, &found, &expected);
+        assert!(found.1.iterations <= 500 + 2 * expected.1.iterations, "{:?}, {:?}", found.1, expected.1);
+    }
     let data = stopped(cloth(9), 5, 1e12);
     let [found, expected] = both(&data, 1e-6);
     assert_eq!((found.1.fallbacks, found.1.capped, found.1.stalled), (1, 0, 0), "{:?}", found.1);

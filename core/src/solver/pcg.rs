@@ -104,6 +104,12 @@ pub(crate) trait Iteration<T: Real> {
 
     /// z into y, D⁻¹ r or near it: for the lower bound, which takes any z.
     fn precondition<F: Force<T>>(&mut self, system: &System<'_, T, F>, v: &mut Vectors<'_, T>);
+
+    /// See [`Iterates::fall_back`].
+    #[inline(always)]
+    fn fall_back<F: Force<T>>(&mut self, _: &System<'_, T, F>) -> bool {
+        false
+    }
 }
 
 /// As [`solve`], with the iterations made by `by`.
@@ -211,6 +217,10 @@ impl<T: Real, F: Force<T>, I: Iteration<T>> Iterates<T> for InVectors<'_, '_, T,
         self.by.iterate(self.system, self.v, target, max_iterations, iterations)
     }
     #[inline]
+    fn fall_back(&mut self) -> bool {
+        self.by.fall_back(self.system)
+    }
+    #[inline]
     fn upper(&mut self) -> T {
         bound::upper(self.v.r, self.v.p, self.v.mu)
     }
@@ -249,7 +259,7 @@ impl<T: Real> Vectors<'_, T> {
 }
 
 /// In the scene's own vectors, with any preconditioner.
-struct Plain<'a, P>(&'a P);
+pub(crate) struct Plain<'a, P>(pub(crate) &'a P);
 
 impl<T: Real, P: Preconditioner<T>> Iteration<T> for Plain<'_, P> {
     #[inline(never)]

@@ -51,20 +51,30 @@ pub(crate) struct Progress<U> {
     pub(crate) rz: U,
 }
 
-/// Iterates from x, r, p and y = z until ½ Σ|rᵢ|²/μᵢ ≤ `target` or the iterations are used up; answers whether it broke down
-/// (rᵀz or pᵀAp ≤ 0 or NaN).
+/// When iterations end.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct Until<U> {
+    /// ½ Σ|rᵢ|²/μᵢ
+    pub(crate) target: U,
+    pub(crate) max_iterations: u32,
+    /// At most so many without halving the least Σ|rᵢ|²/μᵢ so far
+    pub(crate) patience: u32,
+}
+
+/// Iterates from x, r, p and y = z; answers whether it broke down (rᵀz or pᵀAp ≤ 0 or NaN) or patience came to its end.
 #[inline(always)]
 pub(crate) fn iterate<T: Real, U: Real, F: Force<T>>(
     matrix: Matrix<'_, U>,
     (work, weight): (&mut Iterates<'_, U>, &[U]),
     (system, down): (&System<'_, T, F>, &impl Fn(Hessian<T>) -> Hessian<U>),
     progress: &mut Progress<U>,
-    (target, max_iterations): (U, u32),
+    until: Until<U>,
     iterations: &mut u32,
 ) -> bool {
     let Progress { beta, next, rz } = progress;
-    while U::HALF * *beta > target && *iterations < max_iterations {
-        if !(*next > U::ZERO) {
+    let (mut best, mut since) = (*beta, 0);
+    while U::HALF * *beta > until.target && *iterations < until.max_iterations {
+        if !(*next > U::ZERO) || since >= until.patience {
             return true;
         }
         sweep::direction(matrix.layout, work, if *rz > U::ZERO { *next / *rz } else { U::ZERO });
@@ -87,6 +97,7 @@ pub(crate) fn iterate<T: Real, U: Real, F: Force<T>>(
         *rz = *next;
         *iterations += 1;
         (*beta, *next) = sweep::sweep(matrix.layout, work, weight, *next / curvature);
+        (best, since) = if *beta < U::HALF * best { (*beta, 0) } else { (best, since + 1) };
     }
     false
 }
@@ -123,7 +134,7 @@ impl<T: Real> Preconditioner<T> for Diagonal {
                 // No step to make yet: this finds z.
                 let (beta, next) = sweep::sweep(layout, work, weight, T::ZERO);
                 let mut progress = Progress { beta, next, rz: T::ZERO };
-                let until = (target, max_iterations);
+                let until = Until { target, max_iterations, patience: u32::MAX };
                 iterate(matrix, (work, weight), (system, &same), &mut progress, until, iterations)
             },
         )

@@ -6,7 +6,7 @@
 //! each way ([`product`], [`transfer`]), with the inverses of the [`diagonal`] blocks, and solves the last one directly ([`dense`]). The number of
 //! iterations then hardly grows with the size of the net. They run on the finest level too ([`inner`]), for the scene's vectors or
 //! those in lanes ([`outer`]); x, the residual that ends a solve and its bounds are in the scene's precision, so a bad hierarchy costs
-//! time, never truth.
+//! time, never truth; and where it brings x no nearer at all, block Jacobi does ([`spare`]).
 //!
 //! Cost per iteration: seven products of the finest level in f32, 46 flops and 32 bytes per spring each (an edge is computed at both of
 //! its ends), and half as much again on the coarser ones. Memory ([`sizes`]): see [`Multigrid::needs`].
@@ -28,6 +28,7 @@ mod preconditioner;
 mod product;
 mod record;
 mod sizes;
+mod spare;
 mod springs;
 mod strips;
 mod sweep;
@@ -45,6 +46,7 @@ use crate::vec3::Vec3;
 use crate::wide::{Dispatch, Portable, Preconditions, Widened};
 use preconditioner::Preconditioner;
 use sizes::DENSE;
+use spare::WithSpare;
 
 /// PCG with an aggregation-multigrid preconditioner, in a workspace of the caller's: arrays, borrowed slices, vectors.
 ///
@@ -194,10 +196,11 @@ impl<T: Real, N: AsMut<[f32]>, W: AsMut<[u32]>, D: Dispatch> Solver<T> for Multi
         problem: Problem<'_, '_, T, F>,
         stop: &Stop<T>,
     ) -> Result<Solve<T>, StepError> {
-        let Problem { system, vectors, free, .. } = problem;
+        let Problem { system, vectors, block, free } = problem;
         let mut preconditioner = Preconditioner::empty(self.dispatch);
         self.prepare(&system, &mut preconditioner)?;
-        Ok(pcg::solve_by(&system, &mut preconditioner, vectors, stop, free))
+        let mut by = WithSpare { hierarchy: &mut preconditioner, block, jacobi: None };
+        Ok(pcg::solve_by(&system, &mut by, vectors, stop, free))
     }
 }
 

@@ -19,6 +19,7 @@ use crate::solver::refinement::{Refinement, refine};
 use crate::sym3::Sym3;
 use crate::system::System;
 use crate::vec3::{self, Vec3};
+use crate::wide::jacobi::Diagonal;
 use crate::wide::solve::Widened;
 use crate::wide::{self, Dispatch};
 
@@ -29,6 +30,8 @@ pub(super) struct Preconditioner<'a, T, D> {
     hierarchy: Hierarchy<'a>,
     inner: Inner<'a>,
     dispatch: D,
+    /// Does it bring x no nearer, so that D⁻¹ lies in the work in lanes?
+    spent: bool,
 }
 
 impl<'a, T: Real, D: Dispatch> Preconditioner<'a, T, D> {
@@ -39,7 +42,7 @@ impl<'a, T: Real, D: Dispatch> Preconditioner<'a, T, D> {
         let dense = Dense::new(&mut [], 0);
         let levels = [const { None }; LEVELS];
         let hierarchy = Hierarchy { levels, count: 0, dense };
-        Self { scale: T::ZERO, hierarchy, inner: Inner::none(), dispatch }
+        Self { scale: T::ZERO, hierarchy, inner: Inner::none(), dispatch, spent: false }
     }
 
     /// All levels with the system's numbers; `None` if there is too little room.
@@ -118,7 +121,7 @@ impl<'a, T: Real, D: Dispatch> Preconditioner<'a, T, D> {
         (target, max_iterations): (T, u32),
         iterations: &mut u32,
     ) -> bool {
-        let Self { scale, hierarchy, inner, dispatch } = self;
+        let Self { scale, hierarchy, inner, dispatch, .. } = self;
         let (scale, dispatch) = (*scale, *dispatch);
         let mut refined = Refined { hierarchy, inner, outer, scale, dispatch };
         refine(&mut refined, target, max_iterations, iterations) == Refinement::Broken
@@ -172,11 +175,27 @@ impl<T: Real, D: Dispatch> wide::solve::Preconditioner<T> for Preconditioner<'_,
         max_iterations: u32,
         iterations: &mut u32,
     ) -> bool {
+        if self.spent {
+            return Diagonal.iterate(of, target, max_iterations, iterations);
+        }
         self.iterate(of, (target, max_iterations), iterations)
     }
 
     #[inline(never)]
     fn apply<F: Force<T>, E: Dispatch>(&mut self, of: &mut Widened<'_, '_, T, F, E>) {
+        if self.spent {
+            return Diagonal.apply(of);
+        }
         self.cycle(of, true);
+    }
+
+    #[cold]
+    fn fall_back<F: Force<T>, E: Dispatch>(&mut self, of: &mut Widened<'_, '_, T, F, E>) -> bool {
+        if self.spent {
+            return false;
+        }
+        of.invert_diagonal();
+        self.spent = true;
+        true
     }
 }
