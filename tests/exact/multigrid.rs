@@ -9,8 +9,11 @@ use hooke_tests::data::{PointData, SceneData};
 use hooke_tests::multigrid::multigrid;
 use hooke_tests::random::Random;
 use hooke_tests::vec_memory::VecScene;
-use hooke_tests::{allowed, generate};
+use hooke_tests::{allowed, generate, lanes};
 use nalgebra::{DMatrix, DVector};
+
+use crate::single::{step, stopped, within_the_bounds};
+use crate::wide::{cloth, mesh};
 
 const H: f64 = 1.0 / 60.0;
 
@@ -370,5 +373,26 @@ fn too_little_workspace_is_an_error_that_says_how_much_is_needed_and_changes_not
         let solver = Multigrid::new(vec![0.0; numbers - less_numbers], vec![0; words - less_words], Portable);
         let error = scene.step(&mut forces.euler(0.01).solver(solver)).unwrap_err();
         assert_eq!(error, StepError::Workspace { numbers, words });
+    }
+}
+
+#[test]
+fn where_the_cycle_brings_an_answer_no_nearer_block_jacobi_goes_on_and_the_report_says_so() {
+    for (data, by) in [(cloth(16), 1e10), (cloth(9), 1e12), (mesh(4), 1e8), (mesh(4), 1e12)] {
+        let data = stopped(data, 5, by);
+        let expected = step(&data, 1e-6, 10_000, BlockJacobi);
+        let mut in_lanes = lanes::wide::<f64>(&data).around(multigrid(&data));
+        for found in [step(&data, 1e-6, 10_000, multigrid(&data)), step(&data, 1e-6, 10_000, &mut in_lanes)] {
+            assert_eq!(
+                (found.1.fallbacks, found.1.capped, found.1.stalled),
+                (1, 0, 0),
+                "{by:e}: {:?}",
+                found.1
+            );
+            within_the_bounds(&data, &found, &expected);
+        }
+        assert!(in_lanes.in_lanes());
+        let (_, cut) = step(&data, 1e-6, 3, multigrid(&data));
+        assert_eq!((cut.iterations, cut.capped), (3, 1), "{cut:?}");
     }
 }

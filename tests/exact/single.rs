@@ -14,16 +14,16 @@ use crate::wide::{cloth, mesh, run};
 const H: f64 = 1.0 / 60.0;
 
 /// Eight steps on, then stopped, so that v⁺ is the answer itself; every `each`th spring `by` times stiffer.
-fn stopped(mut data: SceneData, each: usize, by: f64) -> SceneData {
+pub(crate) fn stopped(mut data: SceneData, each: usize, by: f64) -> SceneData {
     build::walk_on(&mut data, H, 8);
     data.velocity.fill([0.0; 3]);
     data.springs.iter_mut().step_by(each).for_each(|s| s.k *= by);
     data
 }
 
-type Answer = (Vec<[f64; 3]>, Report<f64>);
+pub(crate) type Answer = (Vec<[f64; 3]>, Report<f64>);
 
-fn step(data: &SceneData, r: f64, most: u32, solver: impl Solver<f64>) -> Answer {
+pub(crate) fn step(data: &SceneData, r: f64, most: u32, solver: impl Solver<f64>) -> Answer {
     let (mut scene, mut forces) = (build::scene::<f64>(data), Forces::<f64>::new(data));
     let mut euler = forces.euler(H).tolerance(r).max_iterations(most).solver(solver);
     let report = scene.step(&mut euler).unwrap();
@@ -39,7 +39,7 @@ fn both(data: &SceneData, r: f64) -> [Answer; 2] {
 }
 
 /// ‖a − b‖_A is no more than both bounds, √(2 upper), say; NaN is more.
-fn within_the_bounds(data: &SceneData, a: &Answer, b: &Answer) {
+pub(crate) fn within_the_bounds(data: &SceneData, a: &Answer, b: &Answer) {
     let apart = build::apart(data, H, &a.0, &b.0);
     let bounds = (2.0 * a.1.upper).sqrt() + (2.0 * b.1.upper).sqrt();
     assert!(apart <= bounds * (1.0 + allowed::FORM), "{apart:e} of {bounds:e}: {:?}, {:?}", a.1, b.1);
@@ -111,7 +111,9 @@ fn where_f32_gets_no_nearer_the_scenes_precision_goes_on_and_the_most_iterations
         let [found, expected] = both(&data, 1e-6);
         assert_eq!((found.1.fallbacks, found.1.capped, found.1.stalled), (1, 0, 0), "{:?}", found.1);
         within_the_bounds(&data, &found, &expected);
-        assert!(found.1.iterations <= 500 + 2 * expected.1.iterations, "{:?}, {:?}", found.1, expected.1);
+        // Forty halvings to R² = 1e-12, each of which f32 is waited for so long; then those of the other.
+        let waits = 40 * (32 + 2 * data.len().isqrt() as u32);
+        assert!(found.1.iterations <= waits + expected.1.iterations, "{:?}, {:?}", found.1, expected.1);
     }
     let data = stopped(cloth(9), 5, 1e12);
     let [found, expected] = both(&data, 1e-6);
