@@ -8,6 +8,8 @@ use hooke_harness::cli::{self, Command};
 use hooke_harness::error::InputError;
 use hooke_harness::run::plan::Plan;
 
+use crate::scenario::WINDOW;
+
 /// Time Hooke's steps beside sparse direct solvers and Eigen's conjugate gradients, on the same states and the same
 /// matrix, with one thread; judge every answer by the kernel's certified bound and by its distance from the exact one.
 #[derive(Debug, Parser)]
@@ -31,6 +33,9 @@ pub(crate) struct Args {
     /// States of the trajectory to solve at, t = 0.25 to 0.5 s [default: 6; with --growth 3]
     #[arg(long, value_name = "N")]
     pub(crate) states: Option<usize>,
+    /// States between these times instead, s
+    #[arg(long, value_name = "FROM,TO", num_args = 1, value_delimiter = ',', conflicts_with_all = ["growth", "choose"])]
+    between: Vec<f64>,
     /// cloth:32 to 256, chain:1000 and lattice:16x16x16 at dt 1/60 and 1/1000, the SCENEs and their FLAGS beside them
     #[arg(long, conflicts_with = "growth")]
     pub(crate) all: bool,
@@ -93,6 +98,11 @@ impl Args {
         if let Some(r) = self.tolerance.iter().find(|r| !(**r > 0.0 && **r < 1.0)) {
             return Err(InputError::new(format!("--tolerance {r:?}: not between 0 and 1")));
         }
+        match self.between.as_slice() {
+            [] => {}
+            [from, to] if 0.0 <= *from && from <= to && to.is_finite() => {}
+            _ => return Err(InputError::new("--between is FROM,TO, seconds from 0 on, FROM before TO")),
+        }
         let names = self.flags.iter().filter(|flag| flag.starts_with("--"));
         let names = names.map(|flag| flag.split('=').next().unwrap_or(flag));
         for name in names {
@@ -103,6 +113,11 @@ impl Args {
             }
         }
         Ok(())
+    }
+
+    /// The times that states are taken between.
+    pub(crate) fn between(&self) -> [f64; 2] {
+        self.between.as_slice().try_into().unwrap_or(WINDOW)
     }
 
     /// All that is to be measured: the SCENEs or else the `usual` ones, at each `--dt`; with `--all` those of the list first,
@@ -199,6 +214,9 @@ mod tests {
             ("--tolerance 0", "--tolerance 0.0"),
             ("--tolerance NaN", "NaN"),
             ("--states x", "'x'"),
+            ("--between 0.3", "FROM,TO"),
+            ("--between 0.3,0.2", "FROM,TO"),
+            ("--between NaN,1", "FROM,TO"),
             ("cloth:4 -- --steps 3", "'--steps'"),
             ("cloth:4 -- --stifness 3", "did you mean '--stiffness'?"),
         ] {

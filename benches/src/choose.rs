@@ -18,7 +18,7 @@ use serde::Serialize;
 use crate::args::Args;
 use crate::compare::{Job, Wrong, progress, with_scene};
 use crate::median::median;
-use crate::scenario::Scenario;
+use crate::scenario::{Scenario, WINDOW};
 use crate::weights::{self, Sample};
 use crate::{output, table};
 
@@ -80,7 +80,7 @@ impl Job for Choose<'_> {
     fn run<F: Force<f64> + Clone>(self, mut scenario: Scenario<F>) -> Result<Self::Output, Wrong> {
         let (name, dt) = (scenario.name.clone(), self.plan.dt);
         let failed = |why: String| Wrong::Failed(format!("{name}: {why}"));
-        let steps = Scenario::<F>::steps(dt, self.states)?;
+        let steps = Scenario::<F>::steps(dt, self.states, WINDOW)?;
         let step = |step| self.progress.set_message(format!("{name}: dt {dt:.4}, trajectory, step {step}"));
         scenario.record(&steps, Some(TRAJECTORY), step).map_err(|error| failed(error.to_string()))?;
         let (mut lines, mut samples) = (Vec::new(), Vec::new());
@@ -157,7 +157,7 @@ pub(crate) fn choose(args: &Args) -> Result<String, Wrong> {
             plan.model = irregular(&plan.model, name);
         }
         for dt in if args.dt.is_empty() { &STEPS[..] } else { &args.dt } {
-            Scenario::<()>::steps(*dt, states)?;
+            Scenario::<()>::steps(*dt, states, WINDOW)?;
             plans.push(Plan { dt: *dt, ..plan.clone() });
         }
     }

@@ -65,6 +65,7 @@ pub(crate) fn progress() -> ProgressBar {
 /// Measures one scene.
 struct Compare<'a> {
     states: usize,
+    between: [f64; 2],
     request: Request<'a>,
     levels: &'a [Level; 4],
     progress: &'a ProgressBar,
@@ -77,7 +78,7 @@ impl Job for Compare<'_> {
         let name = scenario.name.clone();
         let failed = |why: String| Wrong::Failed(format!("{name}: {why}"));
         memory::forget_peak();
-        let steps = Scenario::<F>::steps(scenario.euler.dt(), self.states)?;
+        let steps = Scenario::<F>::steps(scenario.euler.dt(), self.states, self.between)?;
         let of = steps.last().copied().unwrap_or(0);
         let step = |step| self.progress.set_message(format!("{name}: trajectory, step {step}/{of}"));
         scenario.record(&steps, None, step).map_err(|error| failed(error.to_string()))?;
@@ -98,10 +99,10 @@ const PATIENCE: f64 = 5.0;
 fn compare(args: &Args) -> Result<String, Wrong> {
     let tolerances = if args.tolerance.is_empty() { &TOLERANCES } else { args.tolerance.as_slice() };
     let methods = methods::named(&args.method, &methods::all())?;
-    let states = args.states.unwrap_or(STATES);
+    let (states, between) = (args.states.unwrap_or(STATES), args.between());
     let plans = args.plans(&SCENES)?;
     for plan in &plans {
-        Scenario::<()>::steps(plan.dt, states)?;
+        Scenario::<()>::steps(plan.dt, states, between)?;
     }
     if let Some(file) = &args.json {
         safe::prepare_file(file)?;
@@ -113,7 +114,7 @@ fn compare(args: &Args) -> Result<String, Wrong> {
     let (mut rows, mut skipped) = (Vec::new(), Vec::new());
     let (mut products, mut iterations) = (Vec::new(), Vec::new());
     for plan in &plans {
-        let job = Compare { states, request, levels: &levels, progress: &progress };
+        let job = Compare { states, between, request, levels: &levels, progress: &progress };
         let (measured, product, iteration) = with_scene(plan, job)?;
         rows.extend(measured.rows);
         skipped.extend(measured.skipped);

@@ -17,7 +17,7 @@ use crate::compare::{Job, Wrong, progress, with_scene};
 use crate::contender::Contender;
 use crate::family::{Family, Point, families};
 use crate::median::median;
-use crate::scenario::Scenario;
+use crate::scenario::{Scenario, WINDOW};
 use crate::{growth_plot, memory, methods, output, table};
 
 const SCENES: [&str; 10] = [
@@ -52,7 +52,7 @@ impl Job for Grow<'_> {
     fn run<F: Force<f64> + Clone>(self, mut scenario: Scenario<F>) -> Result<Self::Output, Wrong> {
         let name = scenario.name.clone();
         let failed = |why: String| Wrong::Failed(format!("{name}: {why}"));
-        let steps = Scenario::<F>::steps(scenario.euler.dt(), self.states)?;
+        let steps = Scenario::<F>::steps(scenario.euler.dt(), self.states, WINDOW)?;
         let of = steps.last().copied().unwrap_or(0);
         let step = |step| self.progress.set_message(format!("{name}: trajectory, step {step}/{of}"));
         scenario.record(&steps, Some(TOLERANCE), step).map_err(|error| failed(error.to_string()))?;
@@ -108,7 +108,7 @@ pub(crate) fn growth(args: &Args, svg: &Path) -> Result<String, Wrong> {
         if args.dt.is_empty() {
             plan.dt = STEP;
         }
-        Scenario::<()>::steps(plan.dt, states)?;
+        Scenario::<()>::steps(plan.dt, states, WINDOW)?;
     }
     if let Some(file) = &args.json {
         safe::prepare_file(file)?;

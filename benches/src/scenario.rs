@@ -14,7 +14,7 @@ pub(crate) type HostScene = MassSpring<Heap<f64>>;
 /// The lecture's method with the forces `F`.
 pub(crate) type Euler<F> = LinearlyImplicitEuler<f64, F>;
 
-/// Where on the trajectory states are taken, s.
+/// Where on the trajectory states are taken unless told otherwise, s.
 pub(crate) const WINDOW: [f64; 2] = [0.25, 0.5];
 /// So many that none of the scenes here is cut short by it.
 pub(crate) const MOST_ITERATIONS: u32 = 100_000;
@@ -53,14 +53,13 @@ impl<F: Force<f64> + Clone> Scenario<F> {
         Ok(scenario)
     }
 
-    /// The steps at which states are taken: `count` of them, evenly over the window.
-    pub(crate) fn steps(dt: f64, count: usize) -> Result<Vec<usize>, InputError> {
-        let [first, last] = [(WINDOW[0] / dt - 1e-9).ceil(), (WINDOW[1] / dt + 1e-9).floor()];
+    /// The steps at which states are taken: `count` of them, evenly between these times.
+    pub(crate) fn steps(dt: f64, count: usize, [from, to]: [f64; 2]) -> Result<Vec<usize>, InputError> {
+        let [first, last] = [(from / dt - 1e-9).ceil(), (to / dt + 1e-9).floor()];
         let there = (last - first + 1.0).max(0.0);
         if there < count as f64 || count == 0 {
             return Err(InputError::new(format!(
-                "--states {count}: with dt {dt} s there are {there} steps at t = {} to {} s; ask for 1 to {there}",
-                WINDOW[0], WINDOW[1]
+                "--states {count}: with dt {dt} s there are {there} steps at t = {from} to {to} s; ask for 1 to {there}"
             )));
         }
         let gap = if count > 1 { (last - first) / (count - 1) as f64 } else { 0.0 };

@@ -3,7 +3,7 @@
 use hooke::{Gravity, LinearlyImplicitEuler};
 use hooke_harness::scene::catalog;
 
-use crate::scenario::Scenario;
+use crate::scenario::{Scenario, WINDOW};
 
 pub(crate) type Forces = ((), Gravity<f64>);
 
@@ -17,7 +17,7 @@ pub(crate) fn resting(name: &str) -> Scenario<Forces> {
 /// The same in so many states of the window.
 pub(crate) fn in_states(name: &str, states: usize) -> Scenario<Forces> {
     let mut scenario = resting(name);
-    let steps = Scenario::<Forces>::steps(scenario.model.dt, states).unwrap();
+    let steps = Scenario::<Forces>::steps(scenario.model.dt, states, WINDOW).unwrap();
     scenario.record(&steps, None, |_| {}).unwrap();
     scenario.put(0);
     scenario
