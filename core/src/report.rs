@@ -28,8 +28,8 @@ pub struct Solve<T> {
     pub lower: T,
     /// How it ended.
     pub ending: Ending,
-    /// Did factors break down, so that block-Jacobi PCG had to answer, or blocks of the diagonal stood in for pivots
-    /// ([`crate::BlockIlu`])?
+    /// Did factors break down, or iterations in f32 stall ([`crate::SingleJacobi`], [`crate::Multigrid`]), so that block-Jacobi PCG
+    /// had to answer, or blocks of the diagonal stood in for pivots ([`crate::BlockIlu`])?
     pub fallback: bool,
 }
 
@@ -77,7 +77,7 @@ pub struct Report<T> {
     pub capped: u32,
     /// Islands that stalled above the floor.
     pub stalled: u32,
-    /// Islands where factors broke down: see [`Solve::fallback`].
+    /// Islands where factors broke down or f32 stalled: see [`Solve::fallback`].
     pub fallbacks: u32,
     /// Springs that no island needed: broken, or with both ends pinned.
     pub springs_skipped: u32,
