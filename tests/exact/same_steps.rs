@@ -351,7 +351,7 @@ fn by_block_jacobi_in_single() {
                 0x8956_a62c_7e95_17aa,
                 0x0b58_36e5_2dbf_1bdf,
                 0x9473_83c5_76aa_1515,
-                0x9890_d556_888a_2d9e,
+                0x0b60_2589_ba9c_6697,
                 0x7544_4216_d310_fb0d,
                 0x2f04_653e_1de8_652d,
             ],
