@@ -147,8 +147,6 @@ impl<T: Real, B: AsMut<[T]>> Solver<T> for BandedLdl<B> {
 }
 
 impl<T: Real, B: AsMut<[T]>> Preconditions<T> for BandedLdl<B> {
-    const READS_SPRINGS: bool = false;
-
     fn takes(distances: &[u32], places: usize) -> bool {
         is_chain(distances, places)
     }

@@ -164,7 +164,7 @@ fn lower<T: Real, F: Force<T>, D: Dispatch>(lanes: &mut Lanes<'_, '_, T, F, D, D
     let sum = dispatch.run(
         #[inline(always)]
         || {
-            let (mut sum, neighbours) = (all(T::ZERO), Runs::new(layout));
+            let (mut sum, neighbours) = (all(T::ZERO), Runs::new(layout, &[]));
             for at in layout.tiles() {
                 let mut nu = bound::row_sum(neighbours, matrix, at);
                 if points > 0 {

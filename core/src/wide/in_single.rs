@@ -2,16 +2,15 @@
 
 use crate::force::Force;
 use crate::hessian::Hessian;
-use crate::real::{Real, larger, to};
+use crate::real::{Real, to};
 use crate::solver::refinement::{Group, Refinement, Refines, refine};
 use crate::sym3::Sym3;
 use crate::vec3;
 use crate::wide::dispatch::Dispatch;
 use crate::wide::eight::{Eight, Planes, WIDTH, all, load};
 use crate::wide::gather::Matrix;
-use crate::wide::jacobi::{self, Diagonal, Progress, Until};
+use crate::wide::jacobi::{self, Progress, Until};
 use crate::wide::layout::Layout;
-use crate::wide::neighbours::{Neighbours, either};
 use crate::wide::slots::NUMBERS;
 use crate::wide::solve::{Preconditioner, Widened};
 use crate::wide::sweep;
@@ -32,8 +31,6 @@ pub(crate) struct InSingle<'a, T> {
     progress: Progress<f32>,
     /// 1/σ and 1/√σ
     scale: [T; 2],
-    /// Is f32 at its end, so that D⁻¹ lies in the work of the scene's precision?
-    spent: bool,
 }
 
 /// A point spring's H divided by σ.
@@ -54,33 +51,17 @@ impl<'a, T: Real> InSingle<'a, T> {
         let (weight, rest) = rest.split_at_mut_checked(plane)?;
         let (hessians, behind) = rest.split_at_mut_checked(hessians_of(layout))?;
         let mut work = Iterates::cut(behind, layout)?;
-        let scale = dispatch.run(
+        let scale = T::ONE / of.largest();
+        let scale = [scale, scale.sqrt()];
+        dispatch.run(
             #[inline(always)]
-            || {
-                let scale = T::ONE / either!(*way, neighbours => largest(neighbours, layout, front));
-                let scale = [scale, scale.sqrt()];
-                lower(layout, front, scale, inertia, hessians);
-                scale
-            },
+            || lower(layout, front, scale, inertia, hessians),
         );
         let matrix = Matrix { layout, way: *way, hessians, inertia };
         jacobi::invert(matrix, &mut work.inverse, system, &lowered(scale), *dispatch);
         let progress = Progress { beta: 0.0, next: 0.0, rz: 0.0 };
-        Some(Self { inertia, weight, hessians, work, progress, scale, spent: false })
+        Some(Self { inertia, weight, hessians, work, progress, scale })
     }
-}
-
-/// σ, the largest mass or stiffness of a spring.
-#[inline(always)]
-fn largest<T: Real, N: Neighbours>(neighbours: N, layout: &Layout, front: &Front<'_, T>) -> T {
-    let mut most = all(T::ZERO);
-    for at in layout.tiles() {
-        most = sweep::larger_lanes(most, load(front.inertia, at));
-        for (h, _) in neighbours.own(front.hessians, at) {
-            most = sweep::larger_lanes(most, h.alpha + vec3::dot(h.w, h.w));
-        }
-    }
-    most.0.iter().fold(T::ZERO, |most, x| larger(most, *x))
 }
 
 /// m̃/σ, α/σ and w/√σ in f32.
@@ -227,9 +208,6 @@ impl<T: Real> Preconditioner<T> for InSingle<'_, T> {
         max_iterations: u32,
         iterations: &mut u32,
     ) -> bool {
-        if self.spent {
-            return Diagonal.iterate(of, target, max_iterations, iterations);
-        }
         let dispatch = of.dispatch;
         dispatch.run(
             #[inline(always)]
@@ -243,9 +221,6 @@ impl<T: Real> Preconditioner<T> for InSingle<'_, T> {
     /// With D⁻¹ of f32, which is near enough for any z.
     #[inline(never)]
     fn apply<F: Force<T>, D: Dispatch>(&mut self, of: &mut Widened<'_, '_, T, F, D>) {
-        if self.spent {
-            return Diagonal.apply(of);
-        }
         let Widened { layout, work, dispatch, .. } = of;
         let [scale, _] = self.scale;
         dispatch.run(
@@ -261,15 +236,5 @@ impl<T: Real> Preconditioner<T> for InSingle<'_, T> {
                 }
             },
         );
-    }
-
-    #[cold]
-    fn fall_back<F: Force<T>, D: Dispatch>(&mut self, of: &mut Widened<'_, '_, T, F, D>) -> bool {
-        if self.spent {
-            return false;
-        }
-        of.invert_diagonal();
-        self.spent = true;
-        true
     }
 }

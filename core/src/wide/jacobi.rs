@@ -149,3 +149,53 @@ impl<T: Real> Preconditioner<T> for Diagonal {
         );
     }
 }
+
+/// A way to iterate, and block Jacobi in the scene's precision where that gets no nearer.
+pub(crate) struct OrDiagonal<P> {
+    first: P,
+    /// So D⁻¹ lies in the work
+    spent: bool,
+}
+
+impl<P> OrDiagonal<P> {
+    #[inline(always)]
+    pub(crate) const fn new(first: P) -> Self {
+        Self { first, spent: false }
+    }
+}
+
+impl<T: Real, P: Preconditioner<T>> Preconditioner<T> for OrDiagonal<P> {
+    #[inline(always)]
+    fn iterate<F: Force<T>, D: Dispatch>(
+        &mut self,
+        of: &mut Widened<'_, '_, T, F, D>,
+        target: T,
+        max_iterations: u32,
+        iterations: &mut u32,
+    ) -> bool {
+        if self.spent {
+            Diagonal.iterate(of, target, max_iterations, iterations)
+        } else {
+            self.first.iterate(of, target, max_iterations, iterations)
+        }
+    }
+
+    #[inline(always)]
+    fn apply<F: Force<T>, D: Dispatch>(&mut self, of: &mut Widened<'_, '_, T, F, D>) {
+        if self.spent {
+            Diagonal.apply(of);
+        } else {
+            self.first.apply(of);
+        }
+    }
+
+    #[cold]
+    fn fall_back<F: Force<T>, D: Dispatch>(&mut self, of: &mut Widened<'_, '_, T, F, D>) -> bool {
+        if self.spent {
+            return false;
+        }
+        of.invert_diagonal();
+        self.spent = true;
+        true
+    }
+}

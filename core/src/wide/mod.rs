@@ -39,6 +39,7 @@ pub(crate) mod runs;
 pub(crate) mod single;
 pub(crate) mod slots;
 pub(crate) mod solve;
+pub(crate) mod springs;
 pub(crate) mod sweep;
 pub(crate) mod work;
 
@@ -54,14 +55,12 @@ use crate::report::Solve;
 use crate::scene::MassSpring;
 use crate::solver::{Answer, BlockJacobi, Island, Problem, Solver, Stop};
 use crate::system::System;
-use eight::WIDTH;
 use island::Givens;
 use layout::Layout;
 use neighbours::Way;
 pub use single::SingleJacobi;
-use slots::NUMBERS;
 pub use solve::Widened;
-use work::{Front, Iterates, Workshop};
+use work::{Iterates, Workshop};
 
 /// PCG in lanes in a workspace of the caller's, preconditioned by `P`. An island without lanes is left to `P`'s own way.
 #[derive(Debug, Clone, Copy)]
@@ -200,9 +199,6 @@ impl<N, W, D: Dispatch, P> Wide<N, W, D, P> {
             givens.assemble::<L>(&mut front, &mut workshop)?
         };
         let Some(assembled) = assembled else { return Ok(None) };
-        if P::READS_SPRINGS {
-            put_back(island, &layout, words, &way, &front);
-        }
         let work = Iterates::cut(behind, &layout).ok_or(short)?;
         let system = System { matrix: &island.matrix, forces: &**forces, points: assembled.points };
         let lanes = Widened { layout: &layout, way, front, work, system, dispatch, free: assembled.free };
@@ -213,10 +209,6 @@ impl<N, W, D: Dispatch, P> Wide<N, W, D, P> {
 
 /// Preconditioners that PCG in lanes can be built around, and [`crate::BandedLdl`].
 pub trait Preconditions<T: Real>: Solver<T> {
-    /// Does it read the springs' Hessians from the scene's own list?
-    #[doc(hidden)]
-    const READS_SPRINGS: bool;
-
     /// Does it work on an island whose springs join particles at these distances, with so many places? If not, it answers
     /// in its own way.
     #[doc(hidden)]
@@ -237,8 +229,6 @@ pub trait Preconditions<T: Real>: Solver<T> {
 }
 
 impl<T: Real> Preconditions<T> for BlockJacobi {
-    const READS_SPRINGS: bool = false;
-
     fn solve_in_lanes<F: Force<T>, D: Dispatch>(
         &mut self,
         mut lanes: Widened<'_, '_, T, F, D>,
@@ -247,34 +237,6 @@ impl<T: Real> Preconditions<T> for BlockJacobi {
     ) -> Result<Solve<T>, StepError> {
         lanes.invert_diagonal();
         Ok(lanes.solve(jacobi::Diagonal, x, stop))
-    }
-}
-
-/// The Hessians into the scene's own list.
-fn put_back<T: Real>(
-    island: &mut IslandParts<'_, T>,
-    layout: &Layout,
-    words: &[u32],
-    way: &Way<'_>,
-    front: &Front<'_, T>,
-) {
-    let put = |to: &mut [T; 4], at: usize, further: usize| {
-        for (k, value) in to.iter_mut().enumerate() {
-            *value = front.hessians.get(at + k * further).copied().unwrap_or(T::ZERO);
-        }
-    };
-    let Way::Slots(slots) = way else {
-        for (to, word) in island.matrix.hessian.iter_mut().zip(words) {
-            put(to, layout.at(*word), layout.plane());
-        }
-        return;
-    };
-    let mut springs = island.matrix.hessian.iter_mut();
-    for (own, place) in island.matrix.own.iter().zip(slots.places) {
-        let (lane, range) = (*place as usize % WIDTH, slots.range(*place as usize / WIDTH, 0));
-        for (slot, to) in range.zip(springs.by_ref().take(*own as usize)) {
-            put(to, slot * NUMBERS + lane, WIDTH);
-        }
     }
 }
 

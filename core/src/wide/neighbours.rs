@@ -79,7 +79,7 @@ impl<'w> Way<'w> {
     pub(crate) fn of(layout: &'w Layout, words: &'w [u32]) -> Option<Self> {
         Some(match &layout.slots {
             Some(counts) => Self::Slots(Slots::cut(counts, words)?),
-            None => Self::Runs(Runs::new(layout)),
+            None => Self::Runs(Runs::new(layout, words)),
         })
     }
 

@@ -13,14 +13,16 @@ use crate::wide::work::hessians;
 #[derive(Clone, Copy)]
 pub(crate) struct Runs<'l> {
     pub(crate) layout: &'l Layout,
+    /// Where each spring lies, in the scene's order
+    pub(crate) words: &'l [u32],
     /// Of which place the first pulls are. There are those of a stretch, and before them those of the rows that reach it.
     from: usize,
 }
 
 impl<'l> Runs<'l> {
     /// With the first stretch's pulls in view.
-    pub(crate) fn new(layout: &'l Layout) -> Self {
-        Self { layout, from: 0 }
+    pub(crate) fn new(layout: &'l Layout, words: &'l [u32]) -> Self {
+        Self { layout, words, from: 0 }
     }
 
     #[inline(always)]

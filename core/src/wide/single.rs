@@ -20,6 +20,7 @@ use crate::solver::{BlockJacobi, Problem, Solver, Stop};
 use crate::vec3::Vec3;
 use crate::wide::dispatch::Dispatch;
 use crate::wide::in_single::{InSingle, needs};
+use crate::wide::jacobi::OrDiagonal;
 use crate::wide::solve::Widened;
 use crate::wide::{Preconditions, layouts_of};
 
@@ -77,8 +78,6 @@ impl<T: Real, N: AsMut<[f32]>> Solver<T> for SingleJacobi<N> {
 }
 
 impl<T: Real, N: AsMut<[f32]>> Preconditions<T> for SingleJacobi<N> {
-    const READS_SPRINGS: bool = false;
-
     fn solve_in_lanes<F: Force<T>, D: Dispatch>(
         &mut self,
         lanes: Widened<'_, '_, T, F, D>,
@@ -88,6 +87,6 @@ impl<T: Real, N: AsMut<[f32]>> Preconditions<T> for SingleJacobi<N> {
         let short = StepError::Workspace { numbers: needs(lanes.layout), words: 0 };
         let numbers = self.numbers.as_mut().get_mut(..needs(lanes.layout)).ok_or(short)?;
         let single = InSingle::cut(numbers, &lanes).ok_or(short)?;
-        Ok(lanes.solve(single, x, stop))
+        Ok(lanes.solve(OrDiagonal::new(single), x, stop))
     }
 }

@@ -5,7 +5,7 @@ use super::level::{Pattern, Size};
 use super::matching::{self, aggregate};
 use super::record::{RECORD, Shape, remember};
 use super::sizes::{DENSE, most_edges, most_numbers, most_rows};
-use super::springs::{ends_of_springs, weigh};
+use super::springs::ends_of_springs;
 use super::strips::{Edges, LOOSE, SPARSE, arrange, measure, sort};
 use super::tile::WIDTH;
 use super::words::{NONE, get, set, take};
@@ -15,26 +15,26 @@ use crate::real::Real;
 /// Passes of matching: aggregates of up to 2³.
 const PASSES: usize = 3;
 
-/// Makes an island's hierarchy: record, springs' places and levels go to `kept`. `None` if the room is too small.
+/// Makes an island's hierarchy from its pattern and each spring's weight: record, springs' places and levels go to `kept`. `None` if the room is too small.
 #[inline(never)]
 pub(super) fn analyse<T: Real>(
     matrix: &Matrix<'_, T>,
     fingerprint: [u32; 2],
     mut kept: &mut [u32],
     mut scratch: &mut [u32],
+    weight: &mut [f32],
     mut numbers: &mut [f32],
 ) -> Option<Shape> {
     let (rows, springs) = (matrix.own.len(), matrix.other.len());
     let record = take(&mut kept, RECORD)?;
     let mut places: &mut [[u32; 2]] = take(&mut kept, 2 * springs)?.as_chunks_mut().0;
     let tie = take(&mut numbers, rows)?;
-    let (weight, joint_weight) = (take(&mut numbers, springs)?, take(&mut numbers, springs)?);
+    let joint_weight = take(&mut numbers, springs)?;
     let mut part = |n| take(&mut scratch, n);
     let mut ends = [part(springs)?, part(springs)?];
     let touching = part(2 * springs)?;
     let (mut joint, from) = ([part(springs)?, part(springs)?], part(springs)?);
     let (first, mut lists) = (part(rows + 1)?, [part(rows)?, part(rows)?, part(rows)?]);
-    weigh(matrix, weight);
     ends_of_springs(matrix, &mut ends);
     let mut shape = Shape::default();
     let mut size = Size { rows, ..Size::default() };

@@ -7,21 +7,13 @@
 use super::block::{FULL, TIED};
 use super::level::Level;
 use super::planes::Planes;
+use super::springs::{Springs, tied};
 use super::strips::LOOSE;
 use super::tile::{Tile6, WIDTH};
 use super::words::{NONE, get, set};
 use crate::force::Force;
-use crate::hessian::Hessian;
-use crate::real::Real;
+use crate::real::{Real, to};
 use crate::sym3::Sym3;
-use crate::system::System;
-
-/// H/σ = αI + wwᵀ, `root` = 1/√σ
-#[inline(always)]
-fn tied<T: Real>(h: Hessian<T>, scale: T, root: T) -> [f32; TIED] {
-    let [x, y, z] = h.w.map(|w| (w * root).to_f64() as f32);
-    [(h.alpha * scale).to_f64() as f32, x, y, z]
-}
 
 #[inline(always)]
 fn matrix([alpha, x, y, z]: [f32; TIED]) -> [f32; FULL] {
@@ -61,23 +53,24 @@ impl Level<'_> {
     #[inline(never)]
     pub(super) fn fill<T: Real, F: Force<T>>(
         &mut self,
-        system: &System<'_, T, F>,
+        springs: &impl Springs<T, F>,
         place_of: &[[u32; 2]],
         scale: T,
     ) {
-        self.clear();
-        let root = scale.sqrt();
-        for (mass, m) in self.mass.iter_mut().skip(WIDTH).zip(system.matrix.inertia.iter()) {
-            *mass = (*m * scale).to_f64() as f32;
-        }
+        let system = springs.system();
         let rows = self.pattern.size.rows;
+        self.clear();
+        let by = [scale, scale.sqrt()];
+        for (mass, m) in self.mass.iter_mut().skip(WIDTH).zip(system.matrix.inertia.iter()) {
+            *mass = to(*m * scale);
+        }
         let mut places = place_of.iter();
         let mut last_held = NONE;
-        system.each_spring(
+        springs.each_spring(
             #[inline(always)]
             |row, other, h| {
                 let [place, mirrored] = places.next().copied().unwrap_or([LOOSE; 2]);
-                let h = tied(h, scale, root);
+                let h = tied(h, by);
                 if other >= rows {
                     if row as u32 != last_held {
                         last_held = row as u32;
@@ -104,7 +97,7 @@ impl Level<'_> {
         let mut points = false;
         system.each_point(|row, h| {
             points = true;
-            add_to_row(self.held, row, matrix(tied(h, scale, root)));
+            add_to_row(self.held, row, matrix(tied(h, by)));
         });
         if points {
             self.list_held();

@@ -43,10 +43,12 @@ use crate::report::Solve;
 use crate::solver::{Problem, Solver, Stop, pcg};
 use crate::system::System;
 use crate::vec3::Vec3;
+use crate::wide::jacobi::OrDiagonal;
 use crate::wide::{Dispatch, Portable, Preconditions, Widened};
 use preconditioner::Preconditioner;
 use sizes::DENSE;
 use spare::WithSpare;
+use springs::Springs;
 
 /// PCG with an aggregation-multigrid preconditioner, in a workspace of the caller's: arrays, borrowed slices, vectors.
 ///
@@ -102,10 +104,10 @@ impl<N: AsMut<[f32]>, W: AsMut<[u32]>, D: Dispatch> Multigrid<N, W, D> {
     #[inline(never)]
     fn prepare<'a, T: Real, F: Force<T>>(
         &'a mut self,
-        system: &System<'_, T, F>,
+        springs_of: &impl Springs<T, F>,
         to: &mut Preconditioner<'a, T, D>,
     ) -> Result<(), StepError> {
-        let matrix = system.matrix;
+        let matrix = springs_of.system().matrix;
         let (rows, springs) = (matrix.own.len(), matrix.other.len());
         if matrix.rows.first == 0 {
             (self.place, self.spoilt) = (0, false);
@@ -134,11 +136,13 @@ impl<N: AsMut<[f32]>, W: AsMut<[u32]>, D: Dispatch> Multigrid<N, W, D> {
             Some(shape) => shape,
             None => {
                 self.spoilt |= forgotten_from < self.end;
-                analysis::analyse(matrix, fingerprint, kept, scratch, pool).ok_or(short)?
+                let (weight, pool) = pool.split_at_mut_checked(springs).ok_or(short)?;
+                springs::weigh(springs_of, weight);
+                analysis::analyse(matrix, fingerprint, kept, scratch, weight, pool).ok_or(short)?
             }
         };
         self.end = core::cmp::max(self.end, self.place);
-        to.build(system, &shape, kept, pool).ok_or(short)
+        to.build(springs_of, &shape, kept, pool).ok_or(short)
     }
 
     /// z = B r, one cycle for a system's A, B ≈ A⁻¹; answers rᵀz. For tests and for other iterations.
@@ -205,8 +209,6 @@ impl<T: Real, N: AsMut<[f32]>, W: AsMut<[u32]>, D: Dispatch> Solver<T> for Multi
 }
 
 impl<T: Real, N: AsMut<[f32]>, W: AsMut<[u32]>, D: Dispatch> Preconditions<T> for Multigrid<N, W, D> {
-    const READS_SPRINGS: bool = true;
-
     fn solve_in_lanes<F: Force<T>, E: Dispatch>(
         &mut self,
         lanes: Widened<'_, '_, T, F, E>,
@@ -214,7 +216,7 @@ impl<T: Real, N: AsMut<[f32]>, W: AsMut<[u32]>, D: Dispatch> Preconditions<T> fo
         stop: &Stop<T>,
     ) -> Result<Solve<T>, StepError> {
         let mut preconditioner = Preconditioner::empty(self.dispatch);
-        self.prepare(&lanes.system, &mut preconditioner)?;
-        Ok(lanes.solve(preconditioner, x, stop))
+        self.prepare(&lanes, &mut preconditioner)?;
+        Ok(lanes.solve(OrDiagonal::new(preconditioner), x, stop))
     }
 }

@@ -9,6 +9,7 @@ use super::level::Level;
 use super::outer::{InLists, InVectors};
 use super::record::{Shape, skip_record};
 use super::sizes::{DENSE, LEVELS, UNKNOWNS};
+use super::springs::Springs;
 use super::words::take;
 use crate::force::Force;
 use crate::lanes::Lanes;
@@ -19,7 +20,6 @@ use crate::solver::refinement::{Refinement, refine};
 use crate::sym3::Sym3;
 use crate::system::System;
 use crate::vec3::{self, Vec3};
-use crate::wide::jacobi::Diagonal;
 use crate::wide::solve::Widened;
 use crate::wide::{self, Dispatch};
 
@@ -30,8 +30,6 @@ pub(super) struct Preconditioner<'a, T, D> {
     hierarchy: Hierarchy<'a>,
     inner: Inner<'a>,
     dispatch: D,
-    /// Does it bring x no nearer, so that D⁻¹ lies in the work in lanes?
-    spent: bool,
 }
 
 impl<'a, T: Real, D: Dispatch> Preconditioner<'a, T, D> {
@@ -42,20 +40,20 @@ impl<'a, T: Real, D: Dispatch> Preconditioner<'a, T, D> {
         let dense = Dense::new(&mut [], 0);
         let levels = [const { None }; LEVELS];
         let hierarchy = Hierarchy { levels, count: 0, dense };
-        Self { scale: T::ZERO, hierarchy, inner: Inner::none(), dispatch, spent: false }
+        Self { scale: T::ZERO, hierarchy, inner: Inner::none(), dispatch }
     }
 
-    /// All levels with the system's numbers; `None` if there is too little room.
+    /// All levels with the springs' numbers; `None` if there is too little room.
     #[inline(never)]
     pub(super) fn build<F: Force<T>>(
         &mut self,
-        system: &System<'_, T, F>,
+        springs: &impl Springs<T, F>,
         shape: &Shape,
         mut kept: &'a mut [u32],
         mut pool: &'a mut [f32],
     ) -> Option<()> {
-        let place_of = skip_record(&mut kept, system.matrix.other.len())?;
-        self.scale = T::ONE / system.largest();
+        let place_of = skip_record(&mut kept, springs.system().matrix.other.len())?;
+        self.scale = T::ONE / springs.largest();
         let Hierarchy { levels, count, dense } = &mut self.hierarchy;
         *count = shape.levels;
         let coarsest = shape.size.get(shape.levels.checked_sub(1)?)?.rows;
@@ -68,7 +66,7 @@ impl<'a, T: Real, D: Dispatch> Preconditioner<'a, T, D> {
             *level = Level::carve(&mut kept, &mut pool, *size, finer.is_none());
             let level = level.as_mut()?;
             match finer {
-                None => level.fill(system, place_of, scale),
+                None => level.fill(springs, place_of, scale),
                 Some(fine) => level.coarsen(fine),
             }
             level.invert_diagonal(dispatch);
@@ -175,27 +173,11 @@ impl<T: Real, D: Dispatch> wide::solve::Preconditioner<T> for Preconditioner<'_,
         max_iterations: u32,
         iterations: &mut u32,
     ) -> bool {
-        if self.spent {
-            return Diagonal.iterate(of, target, max_iterations, iterations);
-        }
         self.iterate(of, (target, max_iterations), iterations)
     }
 
     #[inline(never)]
     fn apply<F: Force<T>, E: Dispatch>(&mut self, of: &mut Widened<'_, '_, T, F, E>) {
-        if self.spent {
-            return Diagonal.apply(of);
-        }
         self.cycle(of, true);
-    }
-
-    #[cold]
-    fn fall_back<F: Force<T>, E: Dispatch>(&mut self, of: &mut Widened<'_, '_, T, F, E>) -> bool {
-        if self.spent {
-            return false;
-        }
-        of.invert_diagonal();
-        self.spent = true;
-        true
     }
 }
