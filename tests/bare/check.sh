@@ -25,7 +25,7 @@ culprits() {
 }
 
 # How many wrappers the sources have, in both precisions.
-written=$((2 * $(cat src/*.rs | grep -cE '^    [A-Za-z0-9]+::[a-z0-9_]+.*\(')))
+written=$((2 * $(cat src/entries/*.rs | grep -cE '^    [A-Za-z0-9]+::[a-z0-9_]+.*\(')))
 for profile in s o2 release; do
     all=$(symbols "$profile" "")
     entries=$(grep -cE ' T f(32|64)::' <<<"$all" || true)
