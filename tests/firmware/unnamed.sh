@@ -12,11 +12,11 @@ without_features() {
     sed -i -E '/^(pub )?(mod|use) (snapshot|reaction|energy|momentum|stiffness)\b/d' "$source/lib.rs"
     sed -i -E 's/^(pub use force::).*$/\1{Force, Gravity};/' "$source/lib.rs"
     sed -i -E '/^(pub )?(mod|use) (drag|damping|point_force|point_spring)\b/d' "$source/force/mod.rs"
-    rm "$source"/solver/{banded_ldl,chain,direct,elimination,panel,pivot,precision,sparse_ldl,substitution,supernodes,update}.rs
-    sed -i -E '/^(pub(\(crate\))? )?(mod|use) (banded_ldl|chain|direct|elimination|panel|pivot|precision)\b/d' "$source/solver/mod.rs"
+    rm "$source"/solver/{banded_ldl,chain,direct,elimination,elimination_tree,panel,pivot,precision,sparse_ldl,substitution,supernodes,update}.rs
+    sed -i -E '/^(pub(\(crate\))? )?(mod|use) (banded_ldl|chain|direct|elimination|elimination_tree|panel|pivot|precision)\b/d' "$source/solver/mod.rs"
     sed -i -E '/^(pub )?(mod|use) (sparse_ldl|substitution|supernodes|update)\b/d' "$source/solver/mod.rs"
-    rm "$source"/wide/{direct,pieces}.rs
-    sed -i -E '/^pub\(crate\) mod (direct|pieces)\b/d' "$source/wide/mod.rs"
+    rm "$source"/wide/{direct,last_rows,piece_rows,pieces}.rs
+    sed -i -E '/^pub\(crate\) mod (direct|last_rows|piece_rows|pieces)\b/d' "$source/wide/mod.rs"
     rm "$source"/solver/{block_ilu,eisenstat,ssor,triangle}.rs
     sed -i -E '/^(pub )?(mod|use) (block_ilu|eisenstat|ssor|triangle)\b/d' "$source/solver/mod.rs"
     sed -i -E '/^pub use solver::\{BlockIlu/d' "$source/lib.rs"

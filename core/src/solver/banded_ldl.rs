@@ -29,7 +29,7 @@ use crate::solver::{Problem, Solver, Stop};
 use crate::sym3::Sym3;
 use crate::system::System;
 use crate::vec3::{self, Vec3};
-use crate::wide::{Dispatch, Preconditions, Wide, Widened, direct as in_lanes, pieces};
+use crate::wide::{Dispatch, Preconditions, Wide, Widened, direct as in_lanes, piece_rows};
 
 /// Block-banded LDLᵀ in a workspace of the caller's: an array, a borrowed slice, a vector.
 ///
@@ -84,7 +84,7 @@ impl BandedLdl<()> {
         let mut most = Self::needs_of(scene);
         let lanes = Wide::needs_where(scene, damped, |layout| {
             let takes = is_chain(layout.distances(), layout.places);
-            let needs = pieces::KEPT.saturating_mul(layout.places);
+            let needs = piece_rows::KEPT.saturating_mul(layout.places);
             most = if takes && needs > most { needs } else { most };
             takes
         });
@@ -158,8 +158,8 @@ impl<T: Real, B: AsMut<[T]>> Preconditions<T> for BandedLdl<B> {
         stop: &Stop<T>,
     ) -> Result<Solve<T>, StepError> {
         let places = lanes.layout.places;
-        let numbers = pieces::KEPT.saturating_mul(places);
-        let rows = pieces::cut(self.workspace.as_mut(), places);
+        let numbers = piece_rows::KEPT.saturating_mul(places);
+        let rows = piece_rows::cut(self.workspace.as_mut(), places);
         let rows = rows.ok_or(StepError::Workspace { numbers, words: 0 })?;
         Ok(in_lanes::solve(lanes, rows, x, stop))
     }

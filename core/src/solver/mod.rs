@@ -8,6 +8,7 @@ mod chain;
 mod direct;
 mod eisenstat;
 mod elimination;
+mod elimination_tree;
 pub(crate) mod jacobi;
 mod multigrid;
 mod panel;

@@ -12,7 +12,9 @@ use crate::wide::dispatch::Dispatch;
 use crate::wide::eight::{all, load};
 use crate::wide::gather::Matrix;
 use crate::wide::jacobi::Diagonal;
-use crate::wide::pieces::{self, Last, Rows};
+use crate::wide::last_rows::{self, Last};
+use crate::wide::piece_rows::{self, Rows};
+use crate::wide::pieces;
 use crate::wide::runs::Runs;
 use crate::wide::solve::{Lanes, Widened, each_point};
 
@@ -97,21 +99,21 @@ fn factor<T: Real, F: Force<T>, D: Dispatch>(
     dispatch.run(
         #[inline(always)]
         || {
-            pieces::spread([&*front.inertia], pad, rows, pieces::BLOCK);
-            pieces::spread([alpha, x, y, z], pad, rows, pieces::COUPLING);
-            pieces::spread(work.r.0.each_ref().map(|r| &**r), pad, rows, pieces::VECTOR);
+            piece_rows::spread([&*front.inertia], pad, rows, piece_rows::BLOCK);
+            piece_rows::spread([alpha, x, y, z], pad, rows, piece_rows::COUPLING);
+            piece_rows::spread(work.r.0.each_ref().map(|r| &**r), pad, rows, piece_rows::VECTOR);
         },
     );
     if system.points {
-        pieces::clear(rows);
-        each_point(system, way, |at, h| pieces::add_to_diagonal(rows, at.saturating_sub(pad), &h));
+        piece_rows::clear(rows);
+        each_point(system, way, |at, h| piece_rows::add_to_diagonal(rows, at.saturating_sub(pad), &h));
     }
     let before = pieces::before(rows, system.points)?;
     let taken = dispatch.run(
         #[inline(always)]
         || pieces::factor(rows, &before, system.points),
     )?;
-    pieces::join(rows, &taken)
+    last_rows::join(rows, &taken)
 }
 
 /// x += A⁻¹ r
@@ -126,18 +128,18 @@ fn add_correction<T: Real, F: Force<T>, D: Dispatch>(
         let taken = dispatch.run(
             #[inline(always)]
             || {
-                pieces::spread(work.r.0.each_ref().map(|r| &**r), layout.pad, rows, pieces::VECTOR);
+                piece_rows::spread(work.r.0.each_ref().map(|r| &**r), layout.pad, rows, piece_rows::VECTOR);
                 pieces::inwards(rows)
             },
         );
-        pieces::hand_over(rows, &taken);
+        last_rows::hand_over(rows, &taken);
     }
     joint.solve(rows);
     dispatch.run(
         #[inline(always)]
         || {
             pieces::outwards(rows);
-            pieces::put_back(rows, &mut work.y, layout.pad);
+            piece_rows::put_back(rows, &mut work.y, layout.pad);
             for at in layout.tiles() {
                 let x = vec3::add(work.x.load(at), work.y.load(at));
                 work.x.store(at, x);

@@ -21,99 +21,11 @@
 
 use crate::hessian::Hessian;
 use crate::real::Real;
-use crate::solver::pivot;
 use crate::sym3::Sym3;
 use crate::vec3::{self, Vec3};
-use crate::wide::eight::{Eight, Planes, WIDTH, all, choose, load, store, where_positive};
-
-/// Numbers per place: S⁻¹, α and w of C, F by columns, y.
-pub(crate) const KEPT: usize = 6 + 4 + 9 + 3;
-/// Where S⁻¹ lies, before that m̃.
-pub(crate) const BLOCK: usize = 0;
-/// Where C lies.
-pub(crate) const COUPLING: usize = 6;
-/// Where F lies; before that R, and what else is on the diagonal.
-const SPIKE: usize = 10;
-/// Where a right side becomes an answer.
-pub(crate) const VECTOR: usize = 19;
-
-/// The k-th rows of the pieces.
-pub(crate) type Rows<T> = [[T; WIDTH]; KEPT];
-
-/// A 3×3 block by columns.
-type Block<V> = [Vec3<V>; 3];
-
-/// The eight last rows of the pieces, factored: S⁻¹, and the coupling to the last row before.
-pub(crate) struct Last<T> {
-    pivots: [Sym3<T>; WIDTH],
-    towards: [Block<T>; WIDTH],
-}
-
-#[inline(always)]
-fn take<T: Real, const N: usize>(rows: &Rows<T>, from: usize) -> [Eight<T>; N] {
-    let mut out = [all(T::ZERO); N];
-    for (k, out) in out.iter_mut().enumerate() {
-        *out = Eight(*rows.get(from + k).unwrap_or(T::ZEROS));
-    }
-    out
-}
-
-#[inline(always)]
-fn put<T: Real, const N: usize>(rows: &mut Rows<T>, from: usize, values: [Eight<T>; N]) {
-    for (k, value) in values.iter().enumerate() {
-        if let Some(place) = rows.get_mut(from + k) {
-            *place = value.0;
-        }
-    }
-}
-
-#[inline(always)]
-fn columns<V: Copy>([a, b, c, d, e, f, g, h, i]: [V; 9]) -> Block<V> {
-    [[a, b, c], [d, e, f], [g, h, i]]
-}
-
-#[inline(always)]
-fn flat<V: Copy>([[a, b, c], [d, e, f], [g, h, i]]: Block<V>) -> [V; 9] {
-    [a, b, c, d, e, f, g, h, i]
-}
-
-/// Cuts a workspace into rows for so many places; `None` if it is too small.
-pub(crate) fn cut<T: Real>(workspace: &mut [T], places: usize) -> Option<&mut [Rows<T>]> {
-    workspace.as_chunks_mut().0.as_chunks_mut().0.get_mut(..places / WIDTH)
-}
-
-/// Planes into the rows from `from` on: piece by piece side by side.
-#[inline(always)]
-pub(crate) fn spread<T: Real, const N: usize>(
-    planes: [&[T]; N],
-    pad: usize,
-    rows: &mut [Rows<T>],
-    from: usize,
-) {
-    let length = rows.len();
-    for first in blocks(length) {
-        let Some(rows) = rows.get_mut(first..).and_then(|rows| rows.first_chunk_mut::<WIDTH>()) else {
-            return;
-        };
-        for (c, plane) in planes.iter().enumerate() {
-            let at = pad + first;
-            for (l, piece) in (0..WIDTH).map(|l| (l, load(plane, at + l * length).0)) {
-                for (rows, value) in rows.iter_mut().zip(&piece) {
-                    if let Some(place) = rows.get_mut(from + c).and_then(|place| place.get_mut(l)) {
-                        *place = *value;
-                    }
-                }
-            }
-        }
-    }
-}
-
-/// Where blocks of eight rows begin; the last overlaps the one before it.
-#[inline(always)]
-fn blocks(length: usize) -> impl Iterator<Item = usize> {
-    let last = length.saturating_sub(WIDTH);
-    (0..length.div_ceil(WIDTH)).map(move |k| if k * WIDTH < last { k * WIDTH } else { last })
-}
+use crate::wide::eight::{Eight, all, choose, where_positive};
+use crate::wide::last_rows::earlier;
+use crate::wide::piece_rows::{Block, COUPLING, Rows, SPIKE, VECTOR, columns, flat, put, spring, take};
 
 /// Each lane has what the lane before it had.
 #[inline(always)]
@@ -121,19 +33,8 @@ fn later<T: Real>(Eight([a, b, c, d, e, f, g, _]): Eight<T>) -> Eight<T> {
     Eight([T::ZERO, a, b, c, d, e, f, g])
 }
 
-/// Each lane has what the lane after it had.
 #[inline(always)]
-fn earlier<T: Real>(Eight([_, b, c, d, e, f, g, h]): Eight<T>) -> Eight<T> {
-    Eight([b, c, d, e, f, g, h, T::ZERO])
-}
-
-#[inline(always)]
-fn lane<T: Real>(of: Eight<T>, l: usize) -> T {
-    of.0.get(l).copied().unwrap_or(T::ZERO)
-}
-
-#[inline(always)]
-fn minus<T: Real>(a: Sym3<Eight<T>>, b: Sym3<Eight<T>>) -> Sym3<Eight<T>> {
+pub(crate) fn minus<T: Real>(a: Sym3<Eight<T>>, b: Sym3<Eight<T>>) -> Sym3<Eight<T>> {
     let ([a0, a1, a2, a3, a4, a5], [b0, b1, b2, b3, b4, b5]) = (a.0, b.0);
     Sym3([a0 - b0, a1 - b1, a2 - b2, a3 - b3, a4 - b4, a5 - b5])
 }
@@ -209,9 +110,9 @@ pub(crate) struct Before<T> {
 
 /// What all rows but the last take from the last rows before: ΣFᵀS⁻¹F, and ΣFᵀy. Not `sound` where a pivot was not positive.
 pub(crate) struct Taken<T> {
-    sound: Eight<T>,
-    block: [Eight<T>; 6],
-    vector: Vec3<Eight<T>>,
+    pub(crate) sound: Eight<T>,
+    pub(crate) block: [Eight<T>; 6],
+    pub(crate) vector: Vec3<Eight<T>>,
 }
 
 #[inline(never)]
@@ -245,13 +146,6 @@ pub(crate) fn factor<T: Real>(rows: &mut [Rows<T>], before: &Before<T>, points: 
     let (spike, taken) = spikes(interior, before.spike, sound);
     put(last, SPIKE, flat(spike));
     Some(taken)
-}
-
-/// The spring to the next row.
-#[inline(always)]
-fn spring<T: Real>(rows: &Rows<T>) -> Hessian<Eight<T>> {
-    let [alpha, x, y, z] = take(rows, COUPLING);
-    Hessian { alpha, w: [x, y, z] }
 }
 
 #[inline(always)]
@@ -330,71 +224,6 @@ fn spikes<T: Real>(
     ([f0, f1, f2], Taken { sound, block: [xx, yy, zz, xy, xz, yz], vector: [t0, t1, t2] })
 }
 
-/// Nothing else on the diagonals.
-pub(crate) fn clear<T: Real>(rows: &mut [Rows<T>]) {
-    for rows in rows {
-        put(rows, SPIKE, [all(T::ZERO); 6]);
-    }
-}
-
-/// The diagonal of the row at this place += H.
-pub(crate) fn add_to_diagonal<T: Real>(rows: &mut [Rows<T>], place: usize, h: &Hessian<T>) {
-    let length = rows.len().max(1);
-    let (lane, added) = (place / length, Sym3::scalar(h.alpha).plus_outer(h.w).0);
-    let Some(rows) = rows.get_mut(place % length) else { return };
-    for (lanes, added) in rows.iter_mut().skip(SPIKE).zip(added) {
-        if let Some(entry) = lanes.get_mut(lane) {
-            *entry += added;
-        }
-    }
-}
-
-/// The last rows' u gains what the rows after them hand over.
-#[inline(never)]
-pub(crate) fn hand_over<T: Real>(rows: &mut [Rows<T>], taken: &Vec3<Eight<T>>) {
-    if let Some(last) = rows.last_mut() {
-        let u = vec3::add(take(last, VECTOR), taken.map(earlier));
-        put(last, VECTOR, u);
-    }
-}
-
-/// Factors the chain of the last rows: one row after the other.
-#[inline(never)]
-pub(crate) fn join<T: Real>(rows: &mut [Rows<T>], taken: &Taken<T>) -> Option<Last<T>> {
-    if taken.sound.any(|sound| !(sound > T::ZERO)) {
-        return None;
-    }
-    hand_over(rows, &taken.vector);
-    let last = rows.last()?;
-    // Lane l's last row also loses what lane l + 1 takes.
-    let s = minus(Sym3(take(last, 0)), Sym3(taken.block.map(earlier))).0;
-    let spike = columns(take(last, SPIKE));
-    let nothing = Sym3([T::ZERO; 6]);
-    let mut out = Last { pivots: [nothing; WIDTH], towards: [[[T::ZERO; 3]; 3]; WIDTH] };
-    let mut before = nothing;
-    for (l, (pivot, towards)) in out.pivots.iter_mut().zip(&mut out.towards).enumerate() {
-        let of = |x: Eight<T>| lane(x, l);
-        // E: rows of this, columns of the one before.
-        let e = spike.map(|column| column.map(of));
-        let rows = [0, 1, 2].map(|i| e.map(|column| column.get(i).copied().unwrap_or(T::ZERO)));
-        let solved = rows.map(|row| before.mul(row));
-        let [xx, yy, zz, xy, xz, yz] = s.map(of);
-        let [r0, r1, r2] = rows;
-        let [s0, s1, s2] = solved;
-        let s = Sym3([
-            xx - vec3::dot(r0, s0),
-            yy - vec3::dot(r1, s1),
-            zz - vec3::dot(r2, s2),
-            xy - vec3::dot(r0, s1),
-            xz - vec3::dot(r0, s2),
-            yz - vec3::dot(r1, s2),
-        ]);
-        before = pivot::inverse(s)?;
-        (*pivot, *towards) = (before, e);
-    }
-    Some(out)
-}
-
 /// y ← S⁻¹u in all but the last rows, u in these.
 #[inline(always)]
 pub(crate) fn inwards<T: Real>(rows: &mut [Rows<T>]) -> Vec3<Eight<T>> {
@@ -427,52 +256,5 @@ pub(crate) fn outwards<T: Real>(rows: &mut [Rows<T>]) {
         let moved = Sym3(take(rows, 0)).mul(vec3::add(spiked, carried));
         x = vec3::add(take(rows, VECTOR), moved);
         put(rows, VECTOR, x);
-    }
-}
-
-impl<T: Real> Last<T> {
-    /// The last rows' x from their u.
-    #[inline(never)]
-    pub(crate) fn solve(&self, rows: &mut [Rows<T>]) {
-        let Some(last) = rows.last_mut() else { return };
-        let u: Vec3<Eight<T>> = take(last, VECTOR);
-        let mut x = [[T::ZERO; 3]; WIDTH];
-        let mut before = [T::ZERO; 3];
-        for (l, ((x, pivot), [e0, e1, e2])) in x.iter_mut().zip(&self.pivots).zip(&self.towards).enumerate() {
-            let [a, b, c] = before;
-            let from = vec3::add_scaled(vec3::add_scaled(vec3::scale(a, *e0), b, *e1), c, *e2);
-            before = pivot.mul(vec3::add(u.map(|u| lane(u, l)), from));
-            *x = before;
-        }
-        let mut carried = [T::ZERO; 3];
-        for ((x, pivot), e) in x.iter_mut().zip(&self.pivots).zip(&self.towards).rev() {
-            *x = vec3::add(*x, pivot.mul(carried));
-            carried = e.map(|column| vec3::dot(column, *x));
-        }
-        for (l, x) in x.iter().enumerate() {
-            for (lanes, x) in last.iter_mut().skip(VECTOR).zip(x) {
-                if let Some(place) = lanes.get_mut(l) {
-                    *place = *x;
-                }
-            }
-        }
-    }
-}
-
-/// y of the rows into planes.
-#[inline(always)]
-pub(crate) fn put_back<T: Real>(rows: &[Rows<T>], to: &mut Planes<'_, T>, pad: usize) {
-    let length = rows.len();
-    for first in blocks(length) {
-        let Some(rows) = rows.get(first..).and_then(|rows| rows.first_chunk::<WIDTH>()) else { return };
-        for (c, plane) in to.0.iter_mut().enumerate() {
-            for l in 0..WIDTH {
-                let mut piece = [T::ZERO; WIDTH];
-                for (place, rows) in piece.iter_mut().zip(rows) {
-                    *place = rows.get(VECTOR + c).and_then(|lanes| lanes.get(l)).copied().unwrap_or(T::ZERO);
-                }
-                store(plane, pad + first + l * length, Eight(piece));
-            }
-        }
     }
 }
