@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Links every public function of the kernel without std and without an allocator, at three optimisation levels, and asks
-# the linker whether a panic is reachable. Then does the same with an entry point that can panic, which must be caught.
-# Fails too if core has a public function that no wrapper here calls.
+# the linker whether a panic is reachable. Then does the same with one entry point that can panic, alone, which must be
+# caught (one among all the others: tests/sabotage). Fails too if core has a public function that no wrapper here calls.
 set -euo pipefail
 cd "$(dirname "$0")"
 target=${CARGO_TARGET_DIR:-../../target/bare}

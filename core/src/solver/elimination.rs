@@ -1,15 +1,13 @@
 //! Which entries a sparse LDLᵀ has: found once per pattern, from indices alone.
 //!
-//! Rows are eliminated in the caller's order. The parent of column k is the first row below it in L's column k; these make a
-//! tree (Liu), whose postorder is as good an order and puts columns of equal structure side by side: they become one
-//! *supernode*, a dense panel. Row i of L consists of the paths in the tree from the k < i with Aᵢₖ ≠ 0 up to i: walking them
-//! in the order of the rows counts the columns and then lists them, sorted as they come.
+//! Rows are eliminated in the caller's order, or in one that is as good and puts columns of equal structure side by side
+//! ([`crate::solver::elimination_tree`]): they become one *supernode*, a dense panel. What is found goes to a record, lists in the
+//! caller's words: which rows each supernode has, and where in its panel each spring's block begins.
 //!
 //! Cost: O(entries of L + springs·α). Memory, words: [`FIXED`] + 2 per row, 2 per spring, 3 per supernode, 1 per row of a
 //! supernode; while it works 7 per row and 2 per spring more.
 //!
-//! Sources: Liu 1990 (elimination tree); Davis, *Direct Methods for Sparse Linear Systems*, chapter 4; the manner of asking for
-//! memory is QDLDL's.
+//! Sources: Davis, *Direct Methods for Sparse Linear Systems*, chapter 4; the manner of asking for memory is QDLDL's.
 
 use crate::parts::Matrix;
 use crate::real::Real;

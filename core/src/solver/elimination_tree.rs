@@ -1,5 +1,11 @@
-//! The elimination tree of a pattern, its postorder, and the supernodes that columns of like structure make: see
-//! [`crate::solver::elimination`].
+//! The elimination tree of a pattern, for [`crate::solver::elimination`].
+//!
+//! The parent of column k is the first row below it in L's column k; these make a tree, whose postorder is as good an order and
+//! puts columns of equal structure side by side. Row i of L consists of the paths in the tree from the k < i with Aᵢₖ ≠ 0 up to i:
+//! walking them in the order of the rows counts the columns and then lists them, sorted as they come.
+//!
+//! Sources: Liu 1990, *The role of elimination trees in sparse factorization*; Davis, *Direct Methods for Sparse Linear Systems*,
+//! chapter 4.
 
 use crate::parts::Matrix;
 use crate::real::Real;
@@ -7,6 +13,7 @@ use crate::solver::elimination::{Lists, NONE, NOT, Sizes, get, set};
 
 /// Of so many entries of a panel one may be a zero.
 const SPARE: usize = 8;
+
 /// What the analysis works in.
 pub(crate) struct Work<'a> {
     /// Row → where its neighbours are in `neighbour`

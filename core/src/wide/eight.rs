@@ -213,3 +213,21 @@ impl<T: Real> Planes<'_, T> {
         }
     }
 }
+
+/// Each lane has what the lane before it had.
+#[inline(always)]
+pub(crate) fn later<T: Real>(Eight([a, b, c, d, e, f, g, _]): Eight<T>) -> Eight<T> {
+    Eight([T::ZERO, a, b, c, d, e, f, g])
+}
+
+/// Each lane has what the lane after it had.
+#[inline(always)]
+pub(crate) fn earlier<T: Real>(Eight([_, b, c, d, e, f, g, h]): Eight<T>) -> Eight<T> {
+    Eight([b, c, d, e, f, g, h, T::ZERO])
+}
+
+/// A lane's number; 0 where there is none.
+#[inline(always)]
+pub(crate) fn lane<T: Real>(of: Eight<T>, l: usize) -> T {
+    of.0.get(l).copied().unwrap_or(T::ZERO)
+}

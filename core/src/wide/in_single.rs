@@ -22,7 +22,7 @@ pub(crate) fn needs(layout: &Layout) -> usize {
     (1 + 1 + 12 + 6) * layout.plane() + hessians_of(layout)
 }
 
-/// A/σ in f32, and what the iterations work in.
+/// A/σ in f32, σ its largest mass or stiffness of a spring, and what the iterations work in.
 pub(crate) struct InSingle<'a, T> {
     inertia: &'a mut [f32],
     weight: &'a mut [f32],

@@ -5,7 +5,7 @@ use crate::real::Real;
 use crate::solver::pivot;
 use crate::sym3::Sym3;
 use crate::vec3::{self, Vec3};
-use crate::wide::eight::{Eight, WIDTH};
+use crate::wide::eight::{Eight, WIDTH, earlier, lane};
 use crate::wide::piece_rows::{Block, Rows, SPIKE, VECTOR, columns, put, take};
 use crate::wide::pieces::{Taken, minus};
 
@@ -13,17 +13,6 @@ use crate::wide::pieces::{Taken, minus};
 pub(crate) struct Last<T> {
     pivots: [Sym3<T>; WIDTH],
     towards: [Block<T>; WIDTH],
-}
-
-/// Each lane has what the lane after it had.
-#[inline(always)]
-pub(crate) fn earlier<T: Real>(Eight([_, b, c, d, e, f, g, h]): Eight<T>) -> Eight<T> {
-    Eight([b, c, d, e, f, g, h, T::ZERO])
-}
-
-#[inline(always)]
-fn lane<T: Real>(of: Eight<T>, l: usize) -> T {
-    of.0.get(l).copied().unwrap_or(T::ZERO)
 }
 
 /// The last rows' u gains what the rows after them hand over.

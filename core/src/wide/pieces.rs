@@ -23,15 +23,8 @@ use crate::hessian::Hessian;
 use crate::real::Real;
 use crate::sym3::Sym3;
 use crate::vec3::{self, Vec3};
-use crate::wide::eight::{Eight, all, choose, where_positive};
-use crate::wide::last_rows::earlier;
+use crate::wide::eight::{Eight, all, choose, earlier, later, where_positive};
 use crate::wide::piece_rows::{Block, COUPLING, Rows, SPIKE, VECTOR, columns, flat, put, spring, take};
-
-/// Each lane has what the lane before it had.
-#[inline(always)]
-fn later<T: Real>(Eight([a, b, c, d, e, f, g, _]): Eight<T>) -> Eight<T> {
-    Eight([T::ZERO, a, b, c, d, e, f, g])
-}
 
 #[inline(always)]
 pub(crate) fn minus<T: Real>(a: Sym3<Eight<T>>, b: Sym3<Eight<T>>) -> Sym3<Eight<T>> {
@@ -46,7 +39,7 @@ fn dense<T: Real>(h: &Hessian<Eight<T>>) -> Sym3<Eight<T>> {
     Sym3([x * x + h.alpha, y * y + h.alpha, z * z + h.alpha, x * y, x * z, y * z])
 }
 
-/// S⁻¹ as in [`pivot`], and C S⁻¹ C; `sound` becomes 0 where a pivot is not positive.
+/// S⁻¹ as in [`crate::solver::pivot`], and C S⁻¹ C; `sound` becomes 0 where a pivot is not positive.
 ///
 /// S = [x cᵀ; c B], C's rows cₓ and Y, N = Y − (c/x) cₓᵀ (2×3): C S⁻¹ C = cₓcₓᵀ/x + Nᵀ Σ⁻¹ N, and all but the last product
 /// with 1/det Σ is done while that division runs.
@@ -243,7 +236,7 @@ pub(crate) fn inwards<T: Real>(rows: &mut [Rows<T>]) -> Vec3<Eight<T>> {
     taken
 }
 
-/// y ← x, after [`inwards`] and [`Last::solve`].
+/// y ← x, after [`inwards`] and [`crate::wide::last_rows::Last::solve`].
 #[inline(always)]
 pub(crate) fn outwards<T: Real>(rows: &mut [Rows<T>]) {
     let Some((last, interior)) = rows.split_last_mut() else { return };

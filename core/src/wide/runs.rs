@@ -13,7 +13,7 @@ use crate::wide::work::hessians;
 #[derive(Clone, Copy)]
 pub(crate) struct Runs<'l> {
     pub(crate) layout: &'l Layout,
-    /// Where each spring lies, in the scene's order
+    /// Where each spring lies, in the scene's order; none where nobody asks for springs one by one
     pub(crate) words: &'l [u32],
     /// Of which place the first pulls are. There are those of a stretch, and before them those of the rows that reach it.
     from: usize,

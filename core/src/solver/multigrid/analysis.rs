@@ -15,7 +15,8 @@ use crate::real::Real;
 /// Passes of matching: aggregates of up to 2³.
 const PASSES: usize = 3;
 
-/// Makes an island's hierarchy from its pattern and each spring's weight: record, springs' places and levels go to `kept`. `None` if the room is too small.
+/// Makes an island's hierarchy from its pattern and each spring's weight, which is spoilt: record, springs' places and levels go to
+/// `kept`. `None` if the room is too small.
 #[inline(never)]
 pub(super) fn analyse<T: Real>(
     matrix: &Matrix<'_, T>,

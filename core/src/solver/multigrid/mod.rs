@@ -6,7 +6,8 @@
 //! each way ([`product`], [`transfer`]), with the inverses of the [`diagonal`] blocks, and solves the last one directly ([`dense`]). The number of
 //! iterations then hardly grows with the size of the net. They run on the finest level too ([`inner`]), for the scene's vectors or
 //! those in lanes ([`outer`]); x, the residual that ends a solve and its bounds are in the scene's precision, so a bad hierarchy costs
-//! time, never truth; and where it brings x no nearer at all, block Jacobi does ([`spare`]).
+//! time, never truth; and where it brings x no nearer at all, block Jacobi does ([`spare`];
+//! in lanes [`crate::wide::jacobi::OrDiagonal`]).
 //!
 //! Cost per iteration: seven products of the finest level in f32, 46 flops and 32 bytes per spring each (an edge is computed at both of
 //! its ends), and half as much again on the coarser ones. Memory ([`sizes`]): see [`Multigrid::needs`].
@@ -100,7 +101,7 @@ impl<N, W, D: Dispatch> Multigrid<N, W, D> {
 }
 
 impl<N: AsMut<[f32]>, W: AsMut<[u32]>, D: Dispatch> Multigrid<N, W, D> {
-    /// The hierarchy of a system, known from an earlier step or found, with the system's numbers, into `to`.
+    /// The hierarchy of these springs, known from an earlier step or found, with their numbers, into `to`.
     #[inline(never)]
     fn prepare<'a, T: Real, F: Force<T>>(
         &'a mut self,

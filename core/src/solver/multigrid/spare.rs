@@ -1,5 +1,5 @@
 //! The hierarchy, and block Jacobi for where it brings x no nearer: stiffnesses that differ by more than f32 can tell apart. In lanes
-//! the preconditioner itself has the other way.
+//! [`crate::wide::jacobi::OrDiagonal`] holds both.
 
 use super::preconditioner::Preconditioner;
 use crate::force::Force;
