@@ -151,20 +151,20 @@ impl<T: Real> Preconditioner<T> for Diagonal {
 }
 
 /// A way to iterate, and block Jacobi in the scene's precision where that gets no nearer.
-pub(crate) struct OrDiagonal<P> {
-    first: P,
+pub(crate) struct OrDiagonal<'p, P> {
+    first: &'p mut P,
     /// So D⁻¹ lies in the work
     spent: bool,
 }
 
-impl<P> OrDiagonal<P> {
+impl<'p, P> OrDiagonal<'p, P> {
     #[inline(always)]
-    pub(crate) const fn new(first: P) -> Self {
+    pub(crate) const fn new(first: &'p mut P) -> Self {
         Self { first, spent: false }
     }
 }
 
-impl<T: Real, P: Preconditioner<T>> Preconditioner<T> for OrDiagonal<P> {
+impl<T: Real, P: Preconditioner<T>> Preconditioner<T> for OrDiagonal<'_, P> {
     #[inline(always)]
     fn iterate<F: Force<T>, D: Dispatch>(
         &mut self,

@@ -86,7 +86,7 @@ impl<T: Real, N: AsMut<[f32]>> Preconditions<T> for SingleJacobi<N> {
     ) -> Result<Solve<T>, StepError> {
         let short = StepError::Workspace { numbers: needs(lanes.layout), words: 0 };
         let numbers = self.numbers.as_mut().get_mut(..needs(lanes.layout)).ok_or(short)?;
-        let single = InSingle::cut(numbers, &lanes).ok_or(short)?;
-        Ok(lanes.solve(OrDiagonal::new(single), x, stop))
+        let mut single = InSingle::cut(numbers, &lanes).ok_or(short)?;
+        Ok(lanes.solve(OrDiagonal::new(&mut single), x, stop))
     }
 }

@@ -218,6 +218,6 @@ impl<T: Real, N: AsMut<[f32]>, W: AsMut<[u32]>, D: Dispatch> Preconditions<T> fo
     ) -> Result<Solve<T>, StepError> {
         let mut preconditioner = Preconditioner::empty(self.dispatch);
         self.prepare(&lanes, &mut preconditioner)?;
-        Ok(lanes.solve(OrDiagonal::new(preconditioner), x, stop))
+        Ok(lanes.solve(OrDiagonal::new(&mut preconditioner), x, stop))
     }
 }
