@@ -135,8 +135,8 @@ pub const BOUND_OF_PLACES: f64 = 4096.0;
 /// over pivots, as much again; κ up to 1e30 in what is generated, so below 1e-62·1e30·100 (derived). The bounds themselves are
 /// never nearer to it than 38 u of `f64`, 4e-15.
 pub const DIGITS: f64 = 1e-30;
-/// Iterations of block Jacobi in `f32` beyond those in `f64` where no residual is renewed on the way: so many, and this share of them.
-/// Two rounded ways to one end (measured: at most one).
+/// Iterations of block Jacobi in `f32` beyond those in `f64` down to R = 1e-6, where at most one residual is renewed on the way: so
+/// many, and this share of them. Two rounded ways to one end (measured: at most one).
 pub const SINGLE: [f64; 2] = [1.0, 0.0];
-/// The same where residuals are renewed: each moves p a little away from what is conjugate (measured: 24 of 162; margin 1.7).
+/// The same below, where more are renewed: each moves p a little away from what is conjugate (measured: 24 of 162; margin 1.7).
 pub const SINGLE_REFINED: [f64; 2] = [1.0, 0.25];
